@@ -159,9 +159,9 @@ Foam::granularProperties::granularProperties(const objectRegistry& registry)
     youngModulus_(quantity("youngModulus", dimPressure)),
     thermalConductivity_
     (
-        *this, "thermalConductivity", dimPower/dimLength/dimTemperature
+        *this, grainKeys, "thermalConductivity", dimPower/dimLength/dimTemperature
     ),
-    heatCapacity_(*this, "heatCapacity", dimSpecificHeatCapacity),
+    heatCapacity_(*this, grainKeys, "heatCapacity", dimSpecificHeatCapacity),
     thermalExpansion_(quantity("thermalExpansion", dimless/dimTemperature)),
     meanRadius_(quantity("meanRadius", dimLength)),
     conductivityFactor_(grainKeys.number(*this, "conductivityFactor")),

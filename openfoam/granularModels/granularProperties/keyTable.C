@@ -97,6 +97,41 @@ const Foam::keyTable::entry& Foam::keyTable::find(const word& name) const
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
+Foam::keyTable::range Foam::keyTable::limits
+(
+    const word& key,
+    const scalar scale,
+    const scalar least
+) const
+{
+    const std::string text(find(key).allowed);
+    range result;
+    const bool above = text[0] == '>';
+    const std::size_t to = text.find(" to ");
+    if (above)
+    {
+        result.open = text[1] != '=';
+    }
+    else if (to == std::string::npos)
+    {
+        return result;
+    }
+    else
+    {
+        result.high = scale*std::strtod(text.c_str() + to + 4, nullptr);
+    }
+    const char* low = text.c_str() + (above ? 2 - result.open : 0);
+    result.low = max(least, scale*std::strtod(low, nullptr));
+    return result;
+}
+
+
+bool Foam::keyTable::allows(const word& key, const scalar value) const
+{
+    return limits(key, 1, -VGREAT).holds(value);
+}
+
+
 Foam::scalar Foam::keyTable::usual(const word& key) const
 {
     return std::strtod(find(key).usual, nullptr);
@@ -184,41 +219,30 @@ Foam::scalar Foam::keyTable::within
     const scalar least
 ) const
 {
-    const entry& known = find(key);
-    const std::string text(known.allowed);
-    const bool above = text[0] == '>';
-    const bool open = above && text[1] != '=';
-    const std::size_t to = text.find(" to ");
-    if (!above && to == std::string::npos)
-    {
-        return value;
-    }
-    const scalar lower = std::strtod(text.c_str() + (above ? 2 - open : 0), nullptr);
-    const scalar low = max(least, scale*lower);
-    const scalar high =
-        above ? VGREAT : scale*std::strtod(text.c_str() + to + 4, nullptr);
-    if ((open ? value > low : value >= low) && value <= high)
+    const range limits(this->limits(key, scale, least));
+    if (limits.holds(value))
     {
         return value;
     }
     // OpenFOAM's streams would print the limits with all digits of the case's
     // writePrecision
-    std::ostringstream limits;
-    if (above)
+    std::ostringstream text;
+    if (limits.high == VGREAT)
     {
-        limits << (open ? "> " : ">= ") << low;
+        text << (limits.open ? "> " : ">= ") << limits.low;
     }
     else
     {
-        limits << low << " to " << high;
+        text << limits.low << " to " << limits.high;
     }
-    if (std::string(known.unit) != "-")
+    const std::string unit(find(key).unit);
+    if (unit != "-")
     {
-        limits << " [" << known.unit << ']';
+        text << " [" << unit << ']';
     }
     FatalIOErrorInFunction(dict)
         << "Entry '" << key << "' is " << value << ", allowed: "
-        << limits.str().c_str() << exit(FatalIOError);
+        << text.str().c_str() << exit(FatalIOError);
     return value;
 }
 

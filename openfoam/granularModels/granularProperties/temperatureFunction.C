@@ -15,7 +15,6 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "temperatureFunction.H"
-#include "granularProperties.H"
 #include "Function1.H"
 #include "ITstream.H"
 
@@ -49,10 +48,12 @@ static const wordList& forms()
 Foam::temperatureFunction::temperatureFunction
 (
     const dictionary& dict,
+    const keyTable& keys,
     const word& key,
     const dimensionSet& dims
 )
 :
+    keys_(keys),
     usual_(key, dims, 0)
 {
     const entry* given = dict.findEntry(key, keyType::LITERAL);
@@ -73,8 +74,13 @@ Foam::temperatureFunction::temperatureFunction
         sample(dict);
         return;
     }
+    if (!given)
+    {
+        usual_.value() = keys_.number(dict, key);
+        return;
+    }
     usual_ = dimensionedScalar(key, dims, dict);
-    granularProperties::grainKeys.within(dict, key, usual_.value());
+    keys_.within(dict, key, usual_.value());
 }
 
 
@@ -112,11 +118,12 @@ void Foam::temperatureFunction::sample(const dictionary& dict)
 
 void Foam::temperatureFunction::check(const scalar value, const scalar T) const
 {
-    if (!(value > 0))
+    if (!keys_.allows(usual_.name(), value))
     {
         FatalErrorInFunction
             << "Entry '" << usual_.name() << "' of constant/granularProperties is "
-            << value << " at " << T << " K, allowed: > 0, in units "
+            << value << " at " << T << " K, allowed: "
+            << keys_.allowed(usual_.name()) << ", in units "
             << usual_.dimensions()
             << exit(FatalError);
     }

@@ -76,7 +76,8 @@ const keyTable granularModels::spheres::keys
         },
         {
             "emissivity",
-            "emissivity of the spheres, which are opaque, grey and diffuse: above"
+            "emissivity of the spheres, which are opaque, grey and diffuse, a"
+            " number or a function of T, as `thermalConductivity`: above"
             " 0 they conduct by"
             " [radiation](../theory/spheres-law.md#radiation), too. At 0 the run"
             " warns where radiation would add more than 2 % to the conductivity",
@@ -199,8 +200,15 @@ Foam::granularModels::spheres::spheres
     source_(coeffs_.getOrDefault<fileName>("model", "builtin")),
     law_(load()),
     gas_(keys.choice(coeffs_, "gas")),
+    emissivity_(coeffs_, keys, "emissivity", dimless),
+    radiates_
+    (
+        keys.choice(coeffs_, "radiation") == "on"
+     && (!emissivity_.isNumber() || emissivity_.usual().value() > 0)
+    ),
     material_(material()),
     hasWall_(coeffs_.isDict("wall")),
+    ownEmissivity_(hasWall_ && coeffs_.subDict("wall").found("emissivity")),
     wall_(wall()),
     outside_(0),
     outsideBy_(int64_t(0))
@@ -269,9 +277,7 @@ msdd_sphere_material Foam::granularModels::spheres::material() const
     result.gas = gas_.c_str();
     result.gas_pressure = keys.number(coeffs_, "gasPressure");
     result.accommodation = keys.number(coeffs_, "accommodation");
-    const scalar emissivity = keys.number(coeffs_, "emissivity");
-    const bool on = keys.choice(coeffs_, "radiation") == "on";
-    result.emissivity = on ? emissivity : 0;
+    result.emissivity = radiates_ ? emissivity_.usual().value() : 0;
     return result;
 }
 
@@ -537,12 +543,19 @@ Foam::label Foam::granularModels::spheres::advance(const query& cells)
     batch.tangent = cells.tangent;
     batch.temperature = cells.temperature;
     const temperatureFunction& k = properties_.conductivityFunction();
-    scalarField conducting(k.isNumber() ? 0 : cells.size);
-    forAll(conducting, row)
+    const auto along = [&](const temperatureFunction& f, const bool wanted)
     {
-        conducting[row] = k.value(cells.temperature[row]);
-    }
-    batch.solid_conductivity = k.isNumber() ? nullptr : conducting.cdata();
+        scalarField values(wanted && !f.isNumber() ? cells.size : 0);
+        forAll(values, row)
+        {
+            values[row] = f.value(cells.temperature[row]);
+        }
+        return values;
+    };
+    const scalarField conducting(along(k, true));
+    const scalarField emitting(along(emissivity_, radiates_));
+    batch.solid_conductivity = conducting.empty() ? nullptr : conducting.cdata();
+    batch.emissivity = emitting.empty() ? nullptr : emitting.cdata();
     batch.stress = stress.data();
     batch.conductivity = conductivity.data();
     batch.solid_fraction = solid.data();
@@ -608,13 +621,35 @@ void Foam::granularModels::spheres::wallResistance
             << " poissonRatio; } }, the properties of the wall"
             << exit(FatalIOError);
     }
+    const temperatureFunction& k = properties_.conductivityFunction();
+    // Of all faces at once if they have the same properties
+    const bool alike = k.isNumber() && (emissivity_.isNumber() || !radiates_);
+    const label length = alike ? max(stress.size(), 1) : 1;
+    msdd_sphere_material material(material_);
+    msdd_sphere_wall wall(wall_);
     try
     {
-        msdd::Spheres::wallResistance
-        (
-            material_, wall_, stress.size(), stress.cdata(),
-            temperature.cdata(), conductivity.cdata(), resistance.data()
-        );
+        for (label face = 0; face < stress.size(); face += length)
+        {
+            if (!alike)
+            {
+                material.conductivity = k.value(temperature[face]);
+                if (radiates_)
+                {
+                    material.emissivity = emissivity_.value(temperature[face]);
+                    if (!ownEmissivity_)
+                    {
+                        wall.emissivity = material.emissivity;
+                    }
+                }
+            }
+            msdd::Spheres::wallResistance
+            (
+                material, wall, length, stress.cdata() + face,
+                temperature.cdata() + face, conductivity.cdata() + face,
+                resistance.data() + face
+            );
+        }
     }
     catch (const std::exception& error)
     {
@@ -702,8 +737,8 @@ bool Foam::granularModels::spheres::radiation
     radiating& answer
 ) const
 {
-    answer.inModel = material_.emissivity > 0;
-    answer.emissivity = keys.number(coeffs_, "emissivity");
+    answer.inModel = radiates_;
+    answer.emissivity = emissivity_.value(T);
     answer.assumed = !(answer.emissivity > 0);
     if (answer.assumed)
     {

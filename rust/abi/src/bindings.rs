@@ -261,6 +261,7 @@ pub struct msdd_sphere_batch {
     pub rotation: *const *const f64,
     pub temperature: *const f64,
     pub solid_conductivity: *const f64,
+    pub emissivity: *const f64,
     pub next_state: *const *mut f64,
     pub stress: *const *mut f64,
     pub tangent: *const *mut f64,
@@ -275,7 +276,7 @@ pub struct msdd_sphere_batch {
 const _: () = {
     [
         "Size of msdd_sphere_batch",
-    ][::core::mem::size_of::<msdd_sphere_batch>() - 136usize];
+    ][::core::mem::size_of::<msdd_sphere_batch>() - 144usize];
     [
         "Alignment of msdd_sphere_batch",
     ][::core::mem::align_of::<msdd_sphere_batch>() - 8usize];
@@ -304,32 +305,35 @@ const _: () = {
         "Offset of field: msdd_sphere_batch::solid_conductivity",
     ][::core::mem::offset_of!(msdd_sphere_batch, solid_conductivity) - 56usize];
     [
+        "Offset of field: msdd_sphere_batch::emissivity",
+    ][::core::mem::offset_of!(msdd_sphere_batch, emissivity) - 64usize];
+    [
         "Offset of field: msdd_sphere_batch::next_state",
-    ][::core::mem::offset_of!(msdd_sphere_batch, next_state) - 64usize];
+    ][::core::mem::offset_of!(msdd_sphere_batch, next_state) - 72usize];
     [
         "Offset of field: msdd_sphere_batch::stress",
-    ][::core::mem::offset_of!(msdd_sphere_batch, stress) - 72usize];
+    ][::core::mem::offset_of!(msdd_sphere_batch, stress) - 80usize];
     [
         "Offset of field: msdd_sphere_batch::tangent",
-    ][::core::mem::offset_of!(msdd_sphere_batch, tangent) - 80usize];
+    ][::core::mem::offset_of!(msdd_sphere_batch, tangent) - 88usize];
     [
         "Offset of field: msdd_sphere_batch::conductivity",
-    ][::core::mem::offset_of!(msdd_sphere_batch, conductivity) - 88usize];
+    ][::core::mem::offset_of!(msdd_sphere_batch, conductivity) - 96usize];
     [
         "Offset of field: msdd_sphere_batch::gas_conductivity",
-    ][::core::mem::offset_of!(msdd_sphere_batch, gas_conductivity) - 96usize];
+    ][::core::mem::offset_of!(msdd_sphere_batch, gas_conductivity) - 104usize];
     [
         "Offset of field: msdd_sphere_batch::radiation_conductivity",
-    ][::core::mem::offset_of!(msdd_sphere_batch, radiation_conductivity) - 104usize];
+    ][::core::mem::offset_of!(msdd_sphere_batch, radiation_conductivity) - 112usize];
     [
         "Offset of field: msdd_sphere_batch::solid_fraction",
-    ][::core::mem::offset_of!(msdd_sphere_batch, solid_fraction) - 112usize];
+    ][::core::mem::offset_of!(msdd_sphere_batch, solid_fraction) - 120usize];
     [
         "Offset of field: msdd_sphere_batch::outside",
-    ][::core::mem::offset_of!(msdd_sphere_batch, outside) - 120usize];
+    ][::core::mem::offset_of!(msdd_sphere_batch, outside) - 128usize];
     [
         "Offset of field: msdd_sphere_batch::outside_cells",
-    ][::core::mem::offset_of!(msdd_sphere_batch, outside_cells) - 128usize];
+    ][::core::mem::offset_of!(msdd_sphere_batch, outside_cells) - 136usize];
 };
 #[repr(C)]
 #[derive(Debug, Copy, Clone)]

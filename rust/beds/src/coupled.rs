@@ -581,7 +581,8 @@ fn network(scene: &Scene, (simulation, exchange): (&Simulation, Option<&Exchange
     };
     let walls: Vec<usize> = heated_walls(scene).collect();
     let plates: Vec<Plate> = walls.iter().map(|&wall| Plate { wall, law: PlateLaw::Held }).collect();
-    let network = Network::new(simulation, materials, &plates);
+    let mut network = Network::new(simulation, materials, &plates);
+    network.source = scene.heat_source.unwrap_or(0.0);
     match exchange {
         Some(exchange) => network.radiating(exchange, grains.emissivity.clone(), &walls),
         None => network,

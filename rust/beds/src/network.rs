@@ -99,6 +99,8 @@ pub struct Network {
     /// m \[kg\] of each sphere, and its radius \[m\].
     pub mass: Vec<f64>,
     pub radii: Vec<f64>,
+    /// Heat that each sphere releases, over its volume \[W/m³\].
+    pub source: f64,
     pub contacts: Vec<Joint>,
     pub gaps: Vec<Near>,
     pub beside: Vec<Beside>,
@@ -115,6 +117,11 @@ pub struct Conductances {
     pub links: Vec<(usize, usize, f64)>,
     /// Between a sphere and a plate, by their numbers.
     pub plates: Vec<(usize, usize, f64)>,
+}
+
+/// Of a sphere \[m³\].
+pub(crate) fn volume(radius: f64) -> f64 {
+    4.0 / 3.0 * std::f64::consts::PI * radius * radius * radius
 }
 
 impl Network {
@@ -141,6 +148,7 @@ impl Network {
             materials,
             mass: simulation.spheres.iter().map(|sphere| sphere.mass).collect(),
             radii: simulation.spheres.iter().map(|sphere| sphere.radius).collect(),
+            source: 0.0,
             contacts,
             gaps: near_pairs(simulation),
             beside: Vec::new(),
@@ -169,6 +177,12 @@ impl Network {
             }
         }
         network
+    }
+
+    /// Heat that the spheres release which no plate holds \[W\].
+    pub fn released(&self) -> f64 {
+        let free = self.held.iter().zip(&self.radii).filter(|(held, _)| held.is_none());
+        self.source * free.map(|(_, radius)| volume(*radius)).sum::<f64>()
     }
 
     /// The same with radiation between the spheres, and between them and the plates, whose walls have these numbers. `emissivity`: of the

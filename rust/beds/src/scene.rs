@@ -21,6 +21,7 @@ const MIN_HEIGHT: f64 = 2.0;
 const MIN_SPHERES: f64 = 30.0;
 /// What numbers may be.
 const STRAINS: [f64; 2] = [-0.2, 0.2];
+const SOURCES: [f64; 2] = [0.0, 1e12];
 const STEPS: [f64; 2] = [100.0, 10_000_000.0];
 const INTERVAL: &str = "a hundred-thousandth of end, to output_every";
 const OUTPUT_EVERY: &str = "interval to end";
@@ -34,6 +35,9 @@ pub struct Scene {
     /// Seed of the packing.
     #[serde(default = "one")]
     pub seed: u64,
+    /// Heat released in the spheres, over their volume \[W/m³\]. Allowed: `SOURCES`. Temperatures that it causes beyond those of start
+    /// and walls are not known beforehand: tables have to reach so far. Default: none.
+    pub heat_source: Option<f64>,
     /// A section: the spheres.
     pub grains: Grains,
     /// A section: what they are poured into.
@@ -316,6 +320,7 @@ impl Scene {
             ),
             ("time.output_every", time.output_every, OUTPUT_EVERY.into(), time.output_every <= time.end),
             ranged("time.steps", time.steps as f64, STEPS),
+            ranged("heat_source", self.heat_source.unwrap_or(0.0), SOURCES),
             (
                 "record.distances",
                 self.record.distances.len() as f64,

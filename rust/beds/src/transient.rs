@@ -1,6 +1,6 @@
 //! Heat in time on the network of a bed at rest: each sphere has one temperature.
 //!
-//! m_i dh(T_i)/dt = Σ_j G_ij (T_j − T_i), with the enthalpy h \[J/kg\] (the integral of the heat capacity) and conductances at the
+//! m_i dh(T_i)/dt = Σ_j G_ij (T_j − T_i) + Q_i, with the heat Q_i that a sphere releases, the enthalpy h \[J/kg\] (the integral of the heat capacity) and conductances at the
 //! present temperatures. A step is one of the implicit Runge-Kutta method of two stages and second order that damps what
 //! it does not resolve (Alexander, SIAM J. Numer. Anal. 14, 1006, 1977): with γ = 1 − 1/√2,
 //!
@@ -11,7 +11,7 @@
 //! the plates gave, up to round-off. The difference of T to the step with F(Y₁) alone, γ Δt (F(T) − F(Y₁))/(m c), is the
 //! estimate of the error by which steps are chosen. It is that of a method of first order, so the true error is smaller.
 
-use crate::network::{Conductances, Network};
+use crate::network::{Conductances, Network, volume};
 use crate::solve::conjugate_gradients;
 
 /// γ.
@@ -78,9 +78,9 @@ impl<'a> Transient<'a> {
         spheres.filter(|(_, held)| held.is_none()).map(|((m, &t), _)| m * capacity.integral(t)).sum()
     }
 
-    /// What the spheres have stored since the start, less what the plates have given \[J\]: 0 up to round-off.
+    /// What the spheres have stored since the start, less what they released and the plates have given \[J\]: 0 up to round-off.
     pub fn residual(&self) -> f64 {
-        self.enthalpy() - self.stored - self.given.iter().sum::<f64>()
+        self.enthalpy() - self.stored - self.given.iter().sum::<f64>() - self.network.released() * self.time
     }
 
     /// What the spheres have stored since the start \[J\].
@@ -204,7 +204,12 @@ impl<'a> Transient<'a> {
     /// Heat into each sphere and out of each plate \[W\]. What flows into a sphere that is held comes from its plate.
     fn flow(&self, conductances: &Conductances) -> (Vec<f64>, Vec<f64>) {
         let (t, held) = (&self.temperatures, &self.network.held);
-        let (mut flow, mut given) = (vec![0.0; t.len()], vec![0.0; self.plates.len()]);
+        let source = |(radius, held): (&f64, &Option<usize>)| match held {
+            None => self.network.source * volume(*radius),
+            Some(_) => 0.0,
+        };
+        let mut flow: Vec<f64> = self.network.radii.iter().zip(held).map(source).collect();
+        let mut given = vec![0.0; self.plates.len()];
         for &(i, j, g) in &conductances.links {
             let heat = g * (t[j] - t[i]);
             for (k, heat) in [(i, heat), (j, -heat)] {

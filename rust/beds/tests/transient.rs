@@ -40,6 +40,7 @@ fn chain(count: usize) -> Network {
         materials: materials(GasName::Vacuum),
         mass: vec![1e-3; count],
         radii: vec![1e-3; count],
+        source: 0.0,
         contacts: (1..count).map(|j| Joint { i: j - 1, j, size, radius: 1e-3 }).collect(),
         gaps: Vec::new(),
         beside: vec![beside(0, 0), beside(count - 1, 1)],
@@ -94,6 +95,22 @@ fn the_steady_state_is_straight() {
         let power = (transient.given[k] - given[k]) / 100.0;
         assert!((power / (sign * flux) - 1.0).abs() < 1e-8, "{power} {flux}");
     }
+}
+
+/// Spheres that release heat Q each have 300 K + Q k (n + 1 − k)/(2 G) at rest.
+#[test]
+fn heat_from_inside_is_a_parabola() {
+    let (count, released) = (9, 1e-3);
+    let network = Network { source: released / (4.0 / 3.0 * PI * 1e-9), ..chain(count) };
+    let mut transient = Transient::new(&network, 300.0, vec![300.0, 300.0]);
+    transient.run_to(1e7, 0.01, &mut 1.0).unwrap();
+    for (k, t) in (1..).zip(&transient.temperatures) {
+        let expected = 300.0 + released * f64::from(k * (10 - k)) / (2.0 * 42.0 * 1e-4);
+        assert!((t - expected).abs() < 1e-6, "{k}: {t} {expected}");
+    }
+    assert!(
+        transient.residual().abs() < 1e-9 * released * 1e7 && (network.released() / 9e-3 - 1.0).abs() < 1e-12
+    );
 }
 
 /// A sphere between two plates that radiate alike ends at the mean of the fourth powers, and what passes is σ (T₁⁴ − T₂⁴) of half of the size.

@@ -226,6 +226,7 @@ typedef struct msdd_sphere_batch {
     const double *temperature;     /**< [K], 0 to 1e5, of the gas; NULL = 293.15. Beyond the temperatures at which the gas is known
                                         the nearest of them is taken */
     const double *solid_conductivity; /**< k_s of the spheres in this cell [W/(m K)], 1e-12 to 1e12; NULL = that of the material */
+    const double *emissivity;      /**< of the spheres in this cell, 0 to 1; NULL = that of the material */
     /* out; any of them may be NULL when not wanted, and so may single columns of next_state, stress, tangent and
      * conductivity */
     double *const *next_state;     /**< state columns after the step */

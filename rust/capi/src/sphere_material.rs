@@ -110,10 +110,15 @@ impl Material {
         self.bed.solid.conductivity
     }
 
-    /// The same with this k_s.
-    pub fn with_conductivity(mut self, conductivity: f64) -> Self {
-        self.bed.solid.conductivity = conductivity;
+    /// The same with this k_s and ε.
+    pub fn with(mut self, conductivity: f64, emissivity: f64) -> Self {
+        (self.bed.solid.conductivity, self.emissivity) = (conductivity, emissivity);
         self
+    }
+
+    /// ε.
+    pub fn emissivity(&self) -> f64 {
+        self.emissivity
     }
 
     pub fn bed(&self) -> &BedMaterial {

@@ -18,6 +18,11 @@ macro_rules! template {
     };
 }
 
+/// Text of `constant/fvOptions`, without its head, for heat released in the bed \[W/m³\].
+pub fn heat_source(in_bed: f64) -> String {
+    template!("fvOptions").replace("@heatSource@", &plain(in_bed))
+}
+
 /// One file of a case: path below the folder, text, and whether it is executable.
 pub struct File {
     pub path: &'static str,

@@ -56,7 +56,7 @@ SphereWallStruct = _struct(
 SphereBatchStruct = _struct(
     "msdd_sphere_batch",
     ("cells", c.c_size_t),
-    *_each(Doubles, "state thermal_strain strain rotation temperature solid_conductivity"),
+    *_each(Doubles, "state thermal_strain strain rotation temperature solid_conductivity emissivity"),
     *_each(Doubles, "next_state stress tangent conductivity gas_conductivity radiation_conductivity solid_fraction outside"),
     ("outside_cells", c.c_size_t),
 )

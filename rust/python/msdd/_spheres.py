@@ -214,6 +214,7 @@ class Spheres:
         rotation: Optional[ArrayLike] = None,
         temperature: Optional[ArrayLike] = None,
         solid_conductivity: Optional[ArrayLike] = None,
+        emissivity: Optional[ArrayLike] = None,
         tangent: bool = False,
     ) -> SphereStep:
         """Takes cells through one step. Arrays of any shapes that broadcast to one; what is given is never changed.
@@ -235,6 +236,8 @@ class Spheres:
             of the gas [K], 0 to 1e5; None: 293.15
         solid_conductivity
             of the spheres [W/(m K)], 1e-12 to 1e12; None: as in the material
+        emissivity
+            of the spheres, 0 to 1; None: as in the material
         tangent
             whether to compute the mechanical tangent, too
 
@@ -257,7 +260,7 @@ class Spheres:
         angles = {} if rotation is None else _components("rotation", rotation, ("x", "y", "z"))
         shape, columns = aligned(
             {**before, "thermal_strain": thermal_strain, **strains, **angles},
-            {"temperature": temperature, "solid_conductivity": solid_conductivity},
+            {"temperature": temperature, "solid_conductivity": solid_conductivity, "emissivity": emissivity},
         )
         after = {name: np.empty(shape) for name in self._state_names}
         stress, conductivity = np.empty((6, *shape)), np.empty((6, *shape))
@@ -280,7 +283,7 @@ class Spheres:
         batch = SphereBatchStruct(struct_size=c.sizeof(SphereBatchStruct), cells=_count(shape), outside=address(outside))
         for name, pointers in tables.items():
             setattr(batch, name, c.addressof(pointers))
-        for name in ("thermal_strain", "temperature", "solid_conductivity"):
+        for name in ("thermal_strain", "temperature", "solid_conductivity", "emissivity"):
             if name in columns:
                 setattr(batch, name, address(columns[name]))
         for name, column in answers.items():

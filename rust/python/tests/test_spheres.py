@@ -103,6 +103,8 @@ class Answers(WithLaw):
         self.assertTrue((dark.radiation_conductivity == 0).all() and (lit.radiation_conductivity > 0.1).all())
         np.testing.assert_allclose(lit.conductivity[:3] - dark.conductivity[:3], np.tile(lit.radiation_conductivity, (3, 1)))
         np.testing.assert_array_equal(lit.conductivity[3:], dark.conductivity[3:])
+        mixed = self.law.advance(STEEL, state, temperature=1000, emissivity=[0, 0.8])
+        np.testing.assert_array_equal(mixed.radiation_conductivity, [0, lit.radiation_conductivity[1]])
 
     def test_arrays_of_any_shape(self) -> None:
         state = self.state(np.full((2, 1), 0.6), np.full((6, 1, 3), 1e4) * np.array([1, 1, 1, 0, 0, 0])[:, None, None])

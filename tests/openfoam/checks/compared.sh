@@ -47,7 +47,7 @@ pebbles() { # lithium orthosilicate in helium, heated from inside between plates
     said "and is steady in the end" 'Steady state: reached; at the end T changes by at most'
 }
 hot_alumina() { # what the closed form of rust/beds/src/radiation.rs adds in a vacuum, in the model and out of it
-    local t dark added missing expected on off
+    local t dark added emissivity missing expected on off
     conductivity() {
         awk -F '[:,]' '/"conductivity_(xx|yy|zz)"/ { sum += $2 } END { printf "%.8g", sum/3 }' postProcessing/msddFoam/summary.json
     }
@@ -56,10 +56,11 @@ hot_alumina() { # what the closed form of rust/beds/src/radiation.rs adds in a v
             --mechanics none --left "$t" --right "$t" --initial-temperature "$t"
         controls "stopAt nextWrite; writeInterval 10; deltaT 10;"
         logged msddFoam
-        read -r added dark < <(sed -n "s/.*Radiation: it adds \([0-9.]*\) W.(m K) at $t K to the \([0-9.]*\) W.*emissivity 0.6\.$/\1 \2/p" log)
-        expected=$(awk -v T="$t" -v k="$(sed -n 's/^thermalConductivity *\([0-9.]*\);/\1/p' constant/granularProperties)" -v dark="$dark" \
+        read -r added dark emissivity < <(sed -n "s/.*Radiation: it adds \([0-9.]*\) W.(m K) at $t K to the \([0-9.]*\) W.*emissivity \([0-9.]*\)\.$/\1 \2 \3/p" log)
+        check "alumina emits less when it is hotter: $emissivity at $t K" is_within "$emissivity" $([ "$t" = 873 ] && echo 0.583 0.585 || echo 0.399 0.401)
+        expected=$(awk -v T="$t" -v k="$(sed -n 's/^thermalConductivity *\([0-9.]*\);/\1/p' constant/granularProperties)" -v dark="$dark" -v e="$emissivity" \
             -v phi="$(awk '/uniform/ { print 1 - $3 }' 0/porosity)" 'BEGIN {
-            b = 4*5.670374e-8*T^3*0.02; e = 0.6; w = 1.1*phi; g = dark/(phi*k)
+            b = 4*5.670374e-8*T^3*0.02; w = 1.1*phi; g = dark/(phi*k)
             r = e/(exp(2/3*log(phi))*(2.163 - 0.613*e)); print b*(0.4556*(1 - phi)^2/phi + r*(1 - w*g)^2/(1 + w*w*r*b*(1 - g)/(phi*k))) }')
         check "radiation adds $added W/(m K) at $t K, expected $expected" is_within "$(echo "$added $expected" | awk '{ print $1/$2 }')" 0.99 1.01
         check "a bed that radiates has no warning of it" [ "$(grep -c '^Warning.*Radiation' log)" = 0 ]
@@ -69,7 +70,7 @@ hot_alumina() { # what the closed form of rust/beds/src/radiation.rs adds in a v
         logged msddFoam
         off=$(conductivity)
         check "without it the bed conducts $off in place of $on W/(m K)" is_within "$(echo "$on $off $expected" | awk '{ print ($1 - $2)/$3 }')" 0.99 1.01
-        warned "which is said" "Radiation would add about $added W/\\(m K\\) at $t K to the .* and is not in the model; emissivity 0.6 \\(radiation is off\\)"
+        warned "which is said" "Radiation would add about $added W/\\(m K\\) at $t K to the .* and is not in the model; emissivity $emissivity \\(radiation is off\\)"
         said "and at the end, too" "Doubt: Radiation would add about [0-9.]+ W/\\(m K\\) at $t K"
     done
     rm -rf [1-9]*
@@ -81,6 +82,8 @@ hot_alumina() { # what the closed form of rust/beds/src/radiation.rs adds in a v
     rm -rf [1-9]*
     sed 's/emissivity .*/emissivity 1.2;/' given > constant/granularProperties
     check "an emissivity above 1 is refused" refused "Entry 'emissivity' is 1.2, allowed: 0 to 1"
+    sed 's/emissivity .*/emissivity table ((300 0.5) (2000 1.3));/' given > constant/granularProperties
+    check "of a table, too" refused "Entry 'emissivity' of .* is 1.0[0-9]* at 1500 K, allowed: 0 to 1"
 }
 within() { # steel under 20 kPa, warmed by a few kelvin
     sphere_case warm --material steel --mean-radius 0.0032 --box 0.15x0.15x0.15 --cells 4x1x1 --left 300 --right 293 --initial-temperature 293

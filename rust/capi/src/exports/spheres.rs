@@ -226,6 +226,7 @@ struct Columns<'a> {
     rotation: Vec<Input<'a>>,
     temperature: Option<Input<'a>>,
     solid_conductivity: Option<Input<'a>>,
+    emissivity: Option<Input<'a>>,
     next_state: Vec<Output<f64>>,
     stress: Vec<Output<f64>>,
     tangent: Vec<Output<f64>>,
@@ -275,6 +276,7 @@ impl<'a> Columns<'a> {
                 rotation: several(&names.rotation, batch.rotation)?,
                 temperature: optional("temperature", batch.temperature)?,
                 solid_conductivity: optional("solid_conductivity", batch.solid_conductivity)?,
+                emissivity: optional("emissivity", batch.emissivity)?,
                 next_state: wanted("next_state", batch.next_state, COLUMNS)?,
                 stress: wanted("stress", batch.stress, 6)?,
                 tangent: wanted("tangent", batch.tangent, 36)?,
@@ -311,6 +313,10 @@ impl<'a> Columns<'a> {
             column.check_finite()?;
             column.check_range(1e-12, 1e12, "1e-12 to 1e12 W/(m K)")?;
         }
+        if let Some(column) = &self.emissivity {
+            column.check_finite()?;
+            column.check_range(0.0, 1.0, "0 to 1")?;
+        }
         Ok(())
     }
 
@@ -318,7 +324,10 @@ impl<'a> Columns<'a> {
     fn advance(&self, model: &SphereModel, material: &Material, cells: usize) -> Result<usize, Failure> {
         let one = |column: &Option<Input>, usual, cell| column.map_or(usual, |column: Input| column.at(cell));
         let there = |cell| {
-            material.with_conductivity(one(&self.solid_conductivity, material.solid_conductivity(), cell))
+            material.with(
+                one(&self.solid_conductivity, material.solid_conductivity(), cell),
+                one(&self.emissivity, material.emissivity(), cell),
+            )
         };
         // Everything that can be refused, before anything is written.
         for cell in 0..cells {

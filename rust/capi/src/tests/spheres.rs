@@ -88,6 +88,7 @@ const NOTHING: msdd_sphere_batch = msdd_sphere_batch {
     rotation: null(),
     temperature: null(),
     solid_conductivity: null(),
+    emissivity: null(),
     next_state: null(),
     stress: null(),
     tangent: null(),
@@ -134,7 +135,7 @@ fn radiation_adds_to_the_conductivity() {
     let given = writable(&mut state);
     let input: Vec<*const f64> = given.iter().map(|column| column.cast_const()).collect();
     let hot = [900.0, 1200.0];
-    let conducting = |emissivity: f64| {
+    let conducting = |emissivity: f64, of_cells: Option<[f64; 2]>| {
         let (mut tensor, mut added, mut solid) = (vec![vec![-7.0; 2]; 6], [-7.0; 2], [-7.0; 2]);
         let columns = writable(&mut tensor);
         let mut batch = msdd_sphere_batch {
@@ -142,6 +143,7 @@ fn radiation_adds_to_the_conductivity() {
             state: input.as_ptr(),
             temperature: hot.as_ptr(),
             conductivity: columns.as_ptr(),
+            emissivity: of_cells.as_ref().map_or(null(), |cells| cells.as_ptr()),
             radiation_conductivity: added.as_mut_ptr(),
             solid_fraction: solid.as_mut_ptr(),
             ..NOTHING
@@ -152,8 +154,9 @@ fn radiation_adds_to_the_conductivity() {
         assert_eq!(status, MSDD_OK, "{}", last_error());
         (tensor, added, solid)
     };
-    let ((dark, none, solid), (bright, added, _)) = (conducting(0.0), conducting(0.8));
+    let ((dark, none, solid), (bright, added, _)) = (conducting(0.0, None), conducting(0.8, None));
     assert_eq!(none, [0.0; 2]);
+    assert_eq!(conducting(0.0, Some([0.0, 0.8])).1, [0.0, added[1]]);
     for cell in 0..2 {
         let bed = Dark {
             conductivity: (dark[0][cell] + dark[1][cell] + dark[2][cell]) / 3.0,
@@ -329,6 +332,7 @@ fn what_cannot_be_is_refused() {
     batch(msdd_sphere_batch { strain: strains.as_ptr(), ..good }, "strain[xy][1] = 0.3");
     let cold = [40.0, 0.0];
     batch(msdd_sphere_batch { solid_conductivity: cold.as_ptr(), ..good }, "solid_conductivity[1] = 0");
+    batch(msdd_sphere_batch { emissivity: cold.as_ptr(), ..good }, "emissivity[0] = 40");
     let poor = [40.0, 0.01];
     batch(msdd_sphere_batch { solid_conductivity: poor.as_ptr(), ..good }, "material.conductivity = 0.01");
     for (name, value, range) in [

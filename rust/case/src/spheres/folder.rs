@@ -111,6 +111,7 @@ fn values(scene: &Scene, name: &str, checkout: &Path) -> Result<Values, CaseErro
     values.extend(times(scene.end_time, scene.first_step()?));
     values.extend(scene.spheres.grains.named().map(|(key, value, _)| (key, plain(value))));
     values.extend(scene.spheres.named().map(|(key, value, _)| (key, plain(value))));
+    values.push(("emissivity", scene.spheres.emissivity.text()));
     values.extend(mesh_values(scene));
     values.extend(bed_values(scene, &start)?);
     Ok(values)

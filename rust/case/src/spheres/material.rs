@@ -2,7 +2,9 @@
 
 use crate::CaseError;
 use crate::grains::{Grains, Preset};
+use crate::numbers::plain;
 use crate::ranges::allow;
+use msdd_beds::property::Property;
 
 /// Equal spheres of one material. The law of spheres knows one friction between them, 0.3.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -15,8 +17,37 @@ pub struct Spheres {
     pub roughness: f64,
     /// Hardness of the surface \[Pa\], which counts where it is rough.
     pub hardness: f64,
-    /// ε \[-\]; 0: without radiation.
-    pub emissivity: f64,
+    pub emissivity: Emissivity,
+}
+
+/// ε \[-\] of the surface of spheres.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Emissivity {
+    /// 0: without radiation.
+    Constant(f64),
+    /// Pairs of temperature \[K\] and value.
+    Table(&'static [[f64; 2]]),
+}
+
+impl Emissivity {
+    pub fn property(self) -> Property {
+        match self {
+            Self::Constant(value) => Property::Constant(value),
+            Self::Table(rows) => Property::Table(rows.to_vec()),
+        }
+    }
+
+    /// The value in `spheresCoeffs`.
+    pub fn text(self) -> String {
+        match self {
+            Self::Constant(value) => plain(value),
+            Self::Table(rows) => {
+                let rows: Vec<String> =
+                    rows.iter().map(|[t, value]| format!("({} {})", plain(*t), plain(*value))).collect();
+                format!("table ({})", rows.join(" "))
+            }
+        }
+    }
 }
 
 /// A named material of spheres.
@@ -26,7 +57,7 @@ pub struct Material {
     /// As in [`Spheres`].
     pub roughness: f64,
     pub hardness: f64,
-    pub emissivity: f64,
+    pub emissivity: Emissivity,
 }
 
 /// The named materials; the first one is the default.
@@ -35,8 +66,9 @@ pub static MATERIALS: [Material; 4] = [
         preset: Preset {
             name: "steel",
             about: "balls of bearing steel 100Cr6 of 6.4 mm diameter (usual values of handbooks; roughness of the balls of \
-                    Beaulieu's bed, cases/beaulieu; emissivity of polished steel from 310 to 530 K, 0.07 to 0.1, J. R. \
-                    Thome, Radiative heat transfer, EPFL, 2008: oxidised steel has 0.8)",
+                    Beaulieu's bed, cases/beaulieu; emissivity of polished steel from 310 to 530 K: J. R. Thome, Radiative heat \
+                    transfer, EPFL, 2008, from 670 to 1270 K: \
+                    M. A. Bramson, Infrared Radiation, as in FLIR's tables; oxidised steel has 0.8)",
             grains: Grains {
                 density: 7800.0,
                 young_modulus: 210e9,
@@ -50,7 +82,14 @@ pub static MATERIALS: [Material; 4] = [
         poisson_ratio: 0.3,
         roughness: 3.4e-7,
         hardness: 7e9,
-        emissivity: 0.1,
+        emissivity: Emissivity::Table(&[
+            [200.0, 0.07],
+            [310.0, 0.07],
+            [530.0, 0.1],
+            [670.0, 0.14],
+            [1270.0, 0.38],
+            [2000.0, 0.38],
+        ]),
     },
     Material {
         preset: Preset {
@@ -70,14 +109,14 @@ pub static MATERIALS: [Material; 4] = [
         poisson_ratio: 0.22,
         roughness: 0.0,
         hardness: 5.5e9,
-        emissivity: 0.93,
+        emissivity: Emissivity::Constant(0.93),
     },
     Material {
         preset: Preset {
             name: "alumina",
             about: "sintered alumina at 20 degrees Celsius (NIST Standard Reference Database 150; R. G. Munro, J. Am. Ceram. \
-                    Soc. 80, 1919, 1997; emissivity between 0.69 at 600 K and 0.54 at 1000 K: P. E. Liley, Heat \
-                    Exchanger Design Handbook 5.5.7), spheres of 6 mm diameter, taken as smooth",
+                    Soc. 80, 1919, 1997; emissivity from 400 to 1500 K: P. E. Liley, Heat Exchanger Design Handbook 5.5.7), \
+                    spheres of 6 mm diameter, taken as smooth",
             grains: Grains {
                 density: 3984.0,
                 young_modulus: 416e9,
@@ -91,7 +130,17 @@ pub static MATERIALS: [Material; 4] = [
         poisson_ratio: 0.231,
         roughness: 0.0,
         hardness: 15e9,
-        emissivity: 0.6,
+        emissivity: Emissivity::Table(&[
+            [200.0, 0.78],
+            [400.0, 0.78],
+            [600.0, 0.69],
+            [800.0, 0.61],
+            [1000.0, 0.54],
+            [1200.0, 0.49],
+            [1400.0, 0.42],
+            [1500.0, 0.4],
+            [2000.0, 0.4],
+        ]),
     },
     Material {
         preset: Preset {
@@ -112,7 +161,7 @@ pub static MATERIALS: [Material; 4] = [
         poisson_ratio: 0.24,
         roughness: 0.0,
         hardness: 1e9,
-        emissivity: 0.8,
+        emissivity: Emissivity::Constant(0.8),
     },
 ];
 
@@ -134,13 +183,12 @@ impl Material {
 }
 
 impl Spheres {
-    /// Values of the law of spheres alone, by the names that they have in `spheresCoeffs`, with unit.
-    pub fn named(&self) -> [(&'static str, f64, &'static str); 4] {
+    /// Numbers of the law of spheres alone, by the names that they have in `spheresCoeffs`, with unit.
+    pub fn named(&self) -> [(&'static str, f64, &'static str); 3] {
         [
             ("poissonRatio", self.poisson_ratio, ""),
             ("roughness", self.roughness, "m"),
             ("hardness", self.hardness, "Pa"),
-            ("emissivity", self.emissivity, ""),
         ]
     }
 
@@ -154,12 +202,16 @@ impl Spheres {
             (-0.99, 0.5, "-0.99 to 0.5"),
             (0.0, 0.01 * self.radius(), "0 (smooth) to a hundredth of the radius [m]"),
             (1.0, 1e15, "1 to 1e15 Pa"),
-            (0.0, 1.0, "0 (without radiation) to 1"),
         ];
         for ((key, value, _), (least, most, allowed)) in self.named().into_iter().zip(ranges) {
             allow(key, value, (least..=most).contains(&value), || allowed.to_string())?;
         }
-        Ok(())
+        match self.emissivity {
+            Emissivity::Constant(value) => allow("emissivity", value, (0.0..=1.0).contains(&value), || {
+                "0 (without radiation) to 1".into()
+            }),
+            Emissivity::Table(_) => Ok(()),
+        }
     }
 
     /// \[m\]

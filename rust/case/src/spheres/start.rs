@@ -112,7 +112,7 @@ impl Bed {
             solid_fraction: answer.solid,
         };
         let black = black(temperature, 2.0 * material.radius);
-        let by_radiation = match self.spheres.emissivity {
+        let by_radiation = match self.spheres.emissivity.property().at(temperature) {
             0.0 => 0.0,
             emissivity => dark.radiation(black, emissivity),
         };

@@ -137,6 +137,9 @@ pub fn files(
         dictionary("system/blockMeshDict", geometry.mesh()),
         dictionary("system/decomposeParDict", geometry.parts()),
     ]);
+    if let Some(source) = scene.heat_source {
+        files.push(dictionary("constant/fvOptions", folder::heat_source(source * (1.0 - porosity))));
+    }
     Ok(files)
 }
 

@@ -213,6 +213,7 @@ fn list_materials() {
     outln!("\nSpheres (--spheres); their law is valid for a friction of 0.3");
     for material in &MATERIALS {
         list(&material.preset, &material.spheres().named());
+        outln!("    {:20} {:>10}", "emissivity", material.emissivity.text());
     }
 }
 

@@ -8,7 +8,7 @@ use msdd_beds::named_gases::GasName;
 use msdd_case::numbers::{plain, rounded};
 use msdd_case::ranges;
 use msdd_case::scene::{Mechanics, parse_sides, parse_wall};
-use msdd_case::spheres::material::{MATERIALS, Spheres, presets};
+use msdd_case::spheres::material::{Emissivity, MATERIALS, Spheres, presets};
 use msdd_case::spheres::scene::{BED_HAS, GRAVITY, Lid, Scene, Shell, check_porosity, check_pressure};
 use msdd_case::spheres::shape::Shape;
 use msdd_case::spheres::start::Gas;
@@ -190,11 +190,12 @@ impl SphereWishes {
             poisson_ratio: self.poisson_ratio.unwrap_or(named.poisson_ratio),
             roughness: self.roughness.unwrap_or(named.roughness),
             hardness: self.hardness.unwrap_or(named.hardness),
-            emissivity: self.emissivity.unwrap_or(named.emissivity),
+            emissivity: self.emissivity.map_or(named.emissivity, Emissivity::Constant),
         };
         spheres.check()?;
         let changed = spheres.named().into_iter().zip(named.named()).filter(|(a, b)| a.1 != b.1);
-        let changed: Vec<&str> = changed.map(|(a, _)| a.0).collect();
+        let emissivity = (spheres.emissivity != named.emissivity).then_some("emissivity");
+        let changed: Vec<&str> = changed.map(|(a, _)| a.0).chain(emissivity).collect();
         let material = match changed.is_empty() {
             true => material,
             false => format!("{material}; {} of your own", changed.join(", ")),

@@ -108,6 +108,7 @@ impl<'a> Reader<'a> {
         self.left_out()?;
         Ok(Scene {
             seed: 1,
+            heat_source: None,
             grains,
             container,
             lid,
