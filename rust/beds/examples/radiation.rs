@@ -3,7 +3,9 @@
 //! `radiation factors [SPHERES] [SEEDS] [RAYS]` prints F of K_rad = 4 σ T³ d F by ray tracing ([`msdd_beds::exchange`]): the affine sum, the
 //! network's own solution, and the closed form of [`msdd_beds::radiation`]; then F if the surfaces have the temperature of the mean gradient at
 //! their centres, at their points, and the product of both, by which the closed form takes the resistance of the solid. Packings with
-//! four frictions, one that was compressed along z, and some that were sheared at constant volume, as they are and opened to φ = 0.55.
+//! four frictions, and one that was compressed along z.
+//!
+//! `radiation sheared [SPHERES] [RAYS]` prints the same of packings that were sheared at constant volume, as they are and opened to φ = 0.55.
 //!
 //! `radiation direct [SPHERES] [SEED] [VOXELS] [PERCENT]` prints K/k_g by solutions of the heat equation in spheres and gas with surfaces that
 //! radiate ([`msdd_beds::voxels`]), along z, with VOXELS along an edge and with 2/3 of that, extrapolated by the power 1, without
@@ -21,6 +23,8 @@ use msdd_spheres::space::{dot, minus};
 use msdd_spheres::{Cell, Material, Simulation, Stiffness};
 use std::error::Error;
 
+const HEADER: &str =
+    "kind,friction,seed,solid_fraction,emissivity,affine,network,closed_form,xx,yy,zz,centres,mixed,points";
 const EMISSIVITIES: [f64; 6] = [1.0, 0.8, 0.6, 0.4, 0.2, 0.1];
 const FRICTIONS: [f64; 4] = [0.0, 0.1, 0.3, 0.5];
 /// Logarithmic strain of sheared packings along both axes, and the solid fraction to which they are opened.
@@ -38,11 +42,12 @@ fn main() -> Result<(), Box<dyn Error>> {
     let number = |k: usize, default: u64| arguments.get(k).map_or(Ok(default), |text| text.parse::<u64>());
     match arguments.first().map(String::as_str) {
         Some("factors") => factors(number(1, 1000)? as usize, number(2, 1)?, number(3, 450)? as usize),
+        Some("sheared") => sheared(number(1, 500)? as usize, number(2, 450)? as usize),
         Some("direct") => {
             let smaller = 1.0 - 0.01 * number(4, 0)? as f64;
             direct(number(1, 50)? as usize, number(2, 1)?, number(3, 72)? as usize, smaller)
         }
-        _ => Err("radiation factors [SPHERES] [SEEDS] [RAYS], or direct [SPHERES] [SEED] [VOXELS] [PERCENT]"
+        _ => Err("radiation factors [SPHERES] [SEEDS] [RAYS], sheared [SPHERES] [RAYS], or direct [SPHERES] [SEED] [VOXELS] [PERCENT]"
             .into()),
     }
 }
@@ -54,9 +59,7 @@ fn packing(spheres: usize, seed: u64, friction: f64) -> Packing {
 }
 
 fn factors(spheres: usize, seeds: u64, rays: usize) -> Result<(), Box<dyn Error>> {
-    println!(
-        "kind,friction,seed,solid_fraction,emissivity,affine,network,closed_form,xx,yy,zz,centres,mixed,points"
-    );
+    println!("{HEADER}");
     for friction in FRICTIONS {
         for seed in 1..=seeds {
             let packed = pack(&packing(spheres, seed, friction))?;
@@ -69,7 +72,11 @@ fn factors(spheres: usize, seeds: u64, rays: usize) -> Result<(), Box<dyn Error>
         }
     }
     let packed = pack_along(&packing(spheres, 1, 0.3), [0.0, 0.0, 1.0])?;
-    rows("along_z,0.3,1", &packed.simulation, packed.averages.solid_fraction, rays)?;
+    rows("along_z,0.3,1", &packed.simulation, packed.averages.solid_fraction, rays)
+}
+
+fn sheared(spheres: usize, rays: usize) -> Result<(), Box<dyn Error>> {
+    println!("{HEADER}");
     for friction in [FRICTIONS[0], FRICTIONS[3]] {
         let mut simulation = pack(&packing(spheres, 1, friction))?.simulation;
         // Opens along x and closes along y, as slowly as the packing was made.

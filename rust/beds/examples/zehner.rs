@@ -2,8 +2,8 @@
 //!
 //!     cargo run --release -p msdd-beds --example zehner [SEEDS [FOLDER]]
 //!
-//! reads the measurements in FOLDER (`cases/zehner`), packs boxes of 1000 spheres with four frictions and SEEDS seeds, writes
-//! `packings.csv` and `prediction.csv` there, and prints tables of errors. A stagnant conductivity is the intercept at Pe = 0 of a
+//! reads the measurements in FOLDER (`cases/zehner`), packs boxes of 1000 spheres with four frictions and SEEDS seeds (without SEEDS: those of
+//! `packings.csv`, if it is there), writes `packings.csv` and `prediction.csv` there, and prints tables of errors. A stagnant conductivity is the intercept at Pe = 0 of a
 //! straight line through the four runs of lowest Pe of a series (ten numbers each): most series are concave in Pe, and a
 //! line through all runs would be too high at Pe = 0. The errors against that one are printed, too.
 
@@ -45,8 +45,8 @@ const APART: [&str; 2] = ["SK05/70", "IK09"];
 /// C, three κ_g, and z as straight lines over φ: value at 0.6 and slope; and the scatter about them.
 struct Packings([[f64; 3]; 5]);
 
-fn packings(seeds: u64, folder: &Path) -> Any<Packings> {
-    let mut rows: Vec<[f64; 6]> = Vec::new();
+/// Packs, and writes `packings.csv`.
+fn packed(seeds: u64, file: &Path) -> Any<()> {
     let mut text =
         "friction,seed,solid_fraction,contact_conductivity,gas_3.5,gas_6,gas_8.5,coordination\n".to_string();
     for friction in FRICTIONS {
@@ -72,12 +72,22 @@ fn packings(seeds: u64, folder: &Path) -> Any<Packings> {
             let gas = LOGS.map(|log| solve(&gas_links(s, 1.0, |radius| radius * (-log).exp())));
             let row = [a.solid_fraction, c, gas[0], gas[1], gas[2], a.coordination];
             writeln!(text, "{friction},{seed},{}", row.map(|x| format!("{x:.5}")).join(","))?;
-            rows.push(row);
         }
     }
-    std::fs::write(folder.join("packings.csv"), text)?;
+    Ok(std::fs::write(file, text)?)
+}
+
+fn packings(seeds: Option<u64>, folder: &Path) -> Any<Packings> {
+    let file = folder.join("packings.csv");
+    if seeds.is_some() || !file.exists() {
+        packed(seeds.unwrap_or(3), &file)?;
+    }
+    let numbers = |row: Vec<String>| -> Any<Vec<f64>> {
+        Ok(row.iter().map(|cell| cell.parse()).collect::<Result<_, _>>()?)
+    };
+    let rows = table(&file)?.into_iter().map(numbers).collect::<Any<Vec<_>>>()?;
     Ok(Packings(std::array::from_fn(|k| {
-        let points: Vec<(f64, f64)> = rows.iter().map(|row| (row[0] - 0.6, row[k + 1])).collect();
+        let points: Vec<(f64, f64)> = rows.iter().map(|row| (row[2] - 0.6, row[k + 3])).collect();
         let (value, slope) = line(&points);
         let off = points.iter().map(|(x, y)| (y / (value + slope * x) - 1.0).powi(2)).sum::<f64>();
         [value, slope, (off / points.len() as f64).sqrt()]
@@ -159,10 +169,30 @@ struct Inputs {
     roughness: Option<f64>,
     pressure: f64,
     accommodation: f64,
+    emissivity: fn(&Series) -> f64,
     /// Over that of the material.
-    emissivity: f64,
     conductivity: f64,
     radiation: Radiation,
+}
+
+/// ε over T \[K\] of handbooks, of steel and of ceramics: heat-resistant steel after repeated heating (J. R. Thome, Radiative heat transfer, EPFL,
+/// 2008) and clay (tables for pyrometers: 0.80 at 811 K, 0.75 at 1644 K; at 300 K as Zehner has it);
+const DULL: [&[[f64; 2]]; 2] =
+    [&[[503.0, 0.5], [1173.0, 0.7]], &[[300.0, 0.93], [811.0, 0.8], [1644.0, 0.75]]];
+/// steel that was polished, and alumina: as in the materials of `msdd case new`.
+const BRIGHT: [&[[f64; 2]]; 2] = [
+    &[[310.0, 0.07], [530.0, 0.1], [670.0, 0.14], [1270.0, 0.38]],
+    &[[400.0, 0.78], [600.0, 0.69], [800.0, 0.61], [1000.0, 0.54]],
+];
+
+/// The values of a table at its ends hold beyond them. Other materials keep theirs.
+fn handbook(series: &Series, [steel, ceramic]: [&[[f64; 2]]; 2]) -> f64 {
+    let rows = match series.material.as_str() {
+        "steel" => steel,
+        "steatite" | "ceramic" => ceramic,
+        _ => return series.emissivity,
+    };
+    Property::Table(rows.to_vec()).at(series.temperature.clamp(rows[0][0], rows[rows.len() - 1][0]))
 }
 
 /// How radiation counts.
@@ -183,8 +213,7 @@ enum Radiation {
 fn prediction(series: &Series, packings: &Packings, inputs: Inputs) -> Any<[f64; 3]> {
     let phi = 1.0 - series.porosity;
     let gas = GasName::Nitrogen.at(series.temperature, 1e5, inputs.accommodation).ok_or("nitrogen")?;
-    let (emissivity, solid) =
-        (inputs.emissivity * series.emissivity, inputs.conductivity * series.conductivity);
+    let (emissivity, solid) = ((inputs.emissivity)(series), inputs.conductivity * series.conductivity);
     let radius = 0.5 * series.diameter;
     let log = (radius / gas.least_distance(radius, solid)).ln();
     let pressure = inputs.pressure * series.pressure;
@@ -322,7 +351,7 @@ fn intercepts(all: &[Series]) {
 }
 
 fn main() -> Any<()> {
-    let seeds = std::env::args().nth(1).map_or(Ok(3), |text| text.parse())?;
+    let seeds = std::env::args().nth(1).map(|text| text.parse()).transpose()?;
     let folder = std::env::args().nth(2).unwrap_or_else(|| "cases/zehner".to_string());
     let folder = Path::new(&folder);
     let packings = packings(seeds, folder)?;
@@ -335,12 +364,12 @@ fn main() -> Any<()> {
         roughness: Some(3.4e-7),
         pressure: 1.0,
         accommodation: 0.9,
-        emissivity: 1.0,
+        emissivity: |s| s.emissivity,
         conductivity: 1.0,
         radiation: Radiation::Resisted,
     };
     let smooth = Inputs { roughness: None, ..one };
-    let kinds: [(&str, Inputs); 18] = [
+    let kinds: [(&str, Inputs); 21] = [
         ("smooth", smooth),
         ("σ/m 0.34 µm", one),
         ("σ/m 0.34 µm, pressure × 2", Inputs { pressure: 2.0, ..one }),
@@ -351,7 +380,19 @@ fn main() -> Any<()> {
         ("σ/m 2 µm", Inputs { roughness: Some(2e-6), ..one }),
         ("σ/m 5 µm", Inputs { roughness: Some(5e-6), ..one }),
         ("σ/m 20 µm", Inputs { roughness: Some(20e-6), ..one }),
-        ("σ/m 2 µm, emissivity × 0.8", Inputs { roughness: Some(2e-6), emissivity: 0.8, ..one }),
+        (
+            "σ/m 2 µm, emissivity × 0.8",
+            Inputs { roughness: Some(2e-6), emissivity: |s| 0.8 * s.emissivity, ..one },
+        ),
+        ("σ/m 0.34 µm, emissivities of handbooks, dull", Inputs { emissivity: |s| handbook(s, DULL), ..one }),
+        (
+            "σ/m 2 µm, emissivities of handbooks, dull",
+            Inputs { roughness: Some(2e-6), emissivity: |s| handbook(s, DULL), ..one },
+        ),
+        (
+            "σ/m 0.34 µm, emissivities of handbooks, bright",
+            Inputs { emissivity: |s| handbook(s, BRIGHT), ..one },
+        ),
         (
             "σ/m 2 µm, conductivity of the spheres × 0.8",
             Inputs { roughness: Some(2e-6), conductivity: 0.8, ..one },

@@ -31,7 +31,7 @@ block_alone() { # folder, stress: for msddFoam
     changed "$1"
     rm -rf 0 constant/granularProperties
     foam_file system/blockMeshDict dictionary <<< "$block_mesh"
-    sphere_grains 'gas air;' '' constant/granularProperties
+    sphere_grains "gas air; ${3:-}" '' constant/granularProperties
     sphere_fields 0 "$2" ' '
     foam_file 0/T volScalarField <<< "dimensions [0 0 0 1 0 0 0]; internalField uniform 330; boundaryField { $block_T }"
     controls 'startFrom latestTime; endTime 40; deltaT 2; writeControl timeStep; writeInterval 20; adjustTimeStep no; functions {}'
@@ -45,7 +45,7 @@ block_region() { # folder, stress
     foam_file system/bed/blockMeshDict dictionary <<< "$block_mesh"
     logged blockMesh -region bed
     foam_file constant/bed/thermophysicalProperties dictionary <<< 'thermoType granularSolidThermo;'
-    sphere_grains 'gas air;'
+    sphere_grains "gas air; ${3:-}"
     sphere_fields 0/bed "$2" ' '
     foam_file 0/bed/T volScalarField <<< "dimensions [0 0 0 1 0 0 0]; internalField uniform 330; boundaryField { $block_T }"
     foam_file 0/bed/p volScalarField <<< 'dimensions [1 -1 -2 0 0 0 0]; internalField uniform 1e5; boundaryField { ".*" { type zeroGradient; } }'
@@ -60,6 +60,17 @@ spheres_in_space() {
     check "spheres as region in three dimensions against msddFoam, 20 steps: T differs by $e <= 1e-6 of the range" below "$e" 1e-6
     e=$(largest_difference 1 'field 40/bed/conductivity' "field $work/block-alone/40/conductivity")
     check "and the conductivity by $e <= 1e-6 W/(m K)" below "$e" 1e-6
+    # Spheres of 2 mm that radiate, less where they are hotter
+    local radiates='emissivity table ((300 0.9) (400 0.5));' dark
+    dark=$(field 40/bed/conductivity | tail -n 1)
+    block_alone block-alone-radiates "$along" "$radiates"
+    logged msddFoam
+    block_region block-region-radiates "$along" "$radiates"
+    logged chtMultiRegionFoam
+    e=$(largest_difference 1 'field 40/bed/conductivity' "field $work/block-alone-radiates/40/conductivity")
+    check "with a table of the emissivity the conductivities differ by $e <= 1e-6 W/(m K)" below "$e" 1e-6
+    check "and are larger than without" awk "BEGIN { split(\"$dark $(field 40/bed/conductivity | tail -n 1)\", K, \" \"); exit !(K[7] > 1.005*K[1]) }"
+    cd "$work/block-region"
     check "three conductivities: more along the larger stress" awk "BEGIN { split(\"$(field 40/bed/conductivity | tail -n 1)\", K, \" \"); exit !(K[1] < K[4] && K[4] < K[6]) }"
     check "one query of the model at the start and in each step" grep -qx 'Queries: 21' log
     mv 40 whole
@@ -138,6 +149,22 @@ own_contact() {
     check "gas takes from the resistance of the wall" awk "BEGIN { exit !($(sed -n '/^    right/,/}/p' 100000000000/bed/wallResistance \
         | grep -o 'uniform [0-9.e+-]*' | head -n 1 | sed 's/uniform //') < 0.2*$R) }"
 }
+radiating_contact() { # at 1000 K: contacts and radiation side by side to the first spheres; F of the bed is that of 0.6 in place of 0.58 of solid
+    local K=() R law e emissivity
+    for emissivity in 0 0.8; do
+        contact_case contact-radiates "$steel_wall" "$own"
+        sphere_grains "gas vacuum; emissivity $emissivity; $steel_wall" 'thermalExpansion 0;'
+        sed -i 's/uniform 400/uniform 1000/; s/uniform 300/uniform 999/; s/uniform 350/uniform 999.5/' 0/*/T
+        logged chtMultiRegionFoam
+        K+=("$(field 100000000000/bed/conductivity | awk 'NR == 1 { print $1 }')")
+    done
+    R=$(sed -n '/^    right/,/}/p' 100000000000/bed/wallResistance | grep -o 'uniform [0-9.e+-]*\|^[0-9.e+-]*$' | head -n 1 | sed 's/uniform //')
+    law=$(awk -v dark="${K[0]}" -v K="${K[1]}" 'BEGIN { d = 2e-3; n = 0.5; E = 200e9/(2*(1 - 0.29^2)); F = 1e4*d*d/n; a = (0.75*F*1e-3/E)^(1/3)
+        k = 2*42*15/(42 + 15); black = 4*5.670374e-8*999.5^3; factor = (K - dark)/(black*d)
+        printf "%.10g", 1/(n*2*a*k/d/d + black/(1/0.8 - 0.44 + 0.335/factor)) - 1e-3/K }')
+    e=$(awk "BEGIN { e = ($R - $law)/$law; print (e < 0 ? -e : e) }")
+    check "a wall that radiates: $R m2 K/W, closed form $law, differ by $e <= 0.03" below "$e" 0.03
+}
 contact_in_parts() { # the wall is cut; helium, whose conductivity follows the temperature
     local e name
     contact_case contact-parts "$steel_wall" "$own"
@@ -196,6 +223,7 @@ region_heat() { controls 'functions { regionHeat { type regionHeat; libs ("libgr
 
 spheres_in_space
 own_contact
+radiating_contact
 contact_in_parts
 of_discs
 walls_that_cannot_be

@@ -8,6 +8,7 @@ use crate::results::Section;
 use std::path::Path;
 
 const FOLDER: &str = "cases/beds";
+const ORIGIN: &str = "msdd reference beds";
 /// Quantities in `bands.csv`, and as the book names them.
 const QUANTITIES: [(&str, &str); 3] = [("T", "T"), ("pressure", "p"), ("conductivity", "K")];
 /// What scenes are for, in `plan.toml`, and as the book says it.
@@ -18,7 +19,54 @@ const USES: [(&str, &str); 3] =
 /// Files that are missing or lack a column.
 pub fn section(root: &Path) -> Result<Section, DocsError> {
     let mut section = Section::default();
-    let errors = Table::read(root, "errors.csv")?;
+    errors(&mut section, root, ("beds-errors", "the solver beside beds of spheres, rms", FOLDER))?;
+
+    let bands = Table::read(root, FOLDER, "bands.csv")?;
+    let mut rows = Vec::new();
+    for (name, words) in QUANTITIES {
+        let mut row = vec![words.to_string()];
+        for (purpose, _) in USES {
+            let line = bands.find(&[("quantity", name), ("use", purpose)])?;
+            row.push(decimals(100.0 * bands.number(line, "inside")?, 0));
+            row.push(decimals(100.0 * bands.number(line, "inside_worst_scene")?, 0));
+            row.push(decimals(bands.number(line, "width")?, 1));
+        }
+        rows.push(row);
+    }
+    let columns: Vec<String> = USES
+        .iter()
+        .flat_map(|(_, words)| {
+            [format!("inside, beds {words} [%]"), "worst bed [%]".to_string(), "width".to_string()]
+        })
+        .collect();
+    let columns: Vec<&str> = std::iter::once("").chain(columns.iter().map(String::as_str)).collect();
+    section.add_table("beds-bands", "error bands of beds of spheres", ORIGIN, &columns, rows);
+    beside::tables(root, &mut section)?;
+    plates(&mut section, &Json::read(root, &format!("{INPUTS}/give.json"))?)?;
+    Ok(section)
+}
+
+/// Hot beds that radiate.
+///
+/// # Errors
+/// As [`section`].
+pub fn hot(root: &Path) -> Result<Section, DocsError> {
+    let mut section = Section::default();
+    errors(
+        &mut section,
+        root,
+        ("hot-errors", "the solver compared with hot beds of spheres, rms", "cases/hot"),
+    )?;
+    Ok(section)
+}
+
+/// The table of the beds in a folder.
+fn errors(
+    section: &mut Section,
+    root: &Path,
+    (name, meaning, folder): (&str, &str, &str),
+) -> Result<(), DocsError> {
+    let errors = Table::read(root, folder, "errors.csv")?;
     let mut rows = Vec::new();
     for line in 0..errors.rows.len() {
         let [scene, purpose, packings] =
@@ -41,32 +89,8 @@ pub fn section(root: &Path) -> Result<Section, DocsError> {
         "K [%]",
         "one packing",
     ];
-    let origin = "msdd reference beds";
-    section.add_table("beds-errors", "the solver beside beds of spheres, rms", origin, &columns, rows);
-
-    let bands = Table::read(root, "bands.csv")?;
-    let mut rows = Vec::new();
-    for (name, words) in QUANTITIES {
-        let mut row = vec![words.to_string()];
-        for (purpose, _) in USES {
-            let line = bands.find(&[("quantity", name), ("use", purpose)])?;
-            row.push(decimals(100.0 * bands.number(line, "inside")?, 0));
-            row.push(decimals(100.0 * bands.number(line, "inside_worst_scene")?, 0));
-            row.push(decimals(bands.number(line, "width")?, 1));
-        }
-        rows.push(row);
-    }
-    let columns: Vec<String> = USES
-        .iter()
-        .flat_map(|(_, words)| {
-            [format!("inside, beds {words} [%]"), "worst bed [%]".to_string(), "width".to_string()]
-        })
-        .collect();
-    let columns: Vec<&str> = std::iter::once("").chain(columns.iter().map(String::as_str)).collect();
-    section.add_table("beds-bands", "error bands of beds of spheres", origin, &columns, rows);
-    beside::tables(root, &mut section)?;
-    plates(&mut section, &Json::read(root, &format!("{INPUTS}/give.json"))?)?;
-    Ok(section)
+    section.add_table(name, meaning, ORIGIN, &columns, rows);
+    Ok(())
 }
 
 /// By how much spheres give way at plates: beds whose load changes, and the mean of all.
@@ -104,8 +128,8 @@ struct Table {
 }
 
 impl Table {
-    fn read(root: &Path, name: &str) -> Result<Self, DocsError> {
-        let file = format!("{FOLDER}/{name}");
+    fn read(root: &Path, folder: &str, name: &str) -> Result<Self, DocsError> {
+        let file = format!("{folder}/{name}");
         let text = msdd_files::read_text(&root.join(&file))?;
         let mut lines = text.lines().map(|line| line.split(',').map(str::to_string).collect::<Vec<_>>());
         let columns = lines.next().unwrap_or_default();

@@ -20,10 +20,11 @@ use std::path::Path;
 type Make = fn(&Path) -> Result<Section, DocsError>;
 
 /// Sections by name.
-pub const SECTIONS: [(&str, Make); 8] = [
+pub const SECTIONS: [(&str, Make); 9] = [
     ("beds", beds::section),
     ("cases", cases::section),
     ("database", database::section),
+    ("hot", beds::hot),
     ("report", report::section),
     ("solver", speed::solver),
     ("speed", speed::section),
