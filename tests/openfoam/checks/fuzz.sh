@@ -5,7 +5,7 @@ build_fuzz() { # builds in a folder outside of the sources
     rm -rf "$work/fuzz-build"
     cp -r "$here/fuzz" "$work/fuzz-build"
     (
-        export MSDD_CHECKOUT=$checkout MSDD_APPBIN=$work/fuzz-build/bin MSDD_LIBBIN=${MSDD_LIBBIN:-$checkout/openfoam/platforms/lib}
+        export MSDD_CHECKOUT=$checkout MSDD_APPBIN=$work/fuzz-build/bin MSDD_LIBBIN=$FOAM_USER_LIBBIN
         . "$checkout/scripts/foam-env" build
         wmake -s "$work/fuzz-build" > "$work/fuzz-build/log" 2>&1
     ) || { tail -n 15 "$work/fuzz-build/log" >&2; return 1; }

@@ -34,7 +34,7 @@ newer_standard() {
             . "$checkout/scripts/foam-env" build
             cd "$checkout/openfoam/$part"
             grep '\.C$' Make/files | xargs -P "$(nproc)" -n 1 g++ -fsyntax-only -std=c++17 -Wall -Wextra -Wno-unused-parameter \
-                -Woverloaded-virtual -DOPENFOAM="$MSDD_API" -DWM_DP -DWM_LABEL_SIZE="$WM_LABEL_SIZE" -DNoRepository \
+                -Woverloaded-virtual -DOPENFOAM="$msdd_api" -DWM_DP -DWM_LABEL_SIZE="$WM_LABEL_SIZE" -DNoRepository \
                 $(pkg-config --cflags PETSc mpi-cxx | sed 's/-I/-isystem/g') -IlnInclude -I. \
                 $(sed '/LIBS/,$d' Make/options | grep -oE -- '-I[^ ]+' | sed "s@\$(LIB_SRC)@$WM_PROJECT_DIR/src@") \
                 -I"$WM_PROJECT_DIR/src/OpenFOAM/lnInclude" -I"$WM_PROJECT_DIR/src/OSspecific/POSIX/lnInclude" 2>&1
