@@ -114,8 +114,8 @@ pub struct Time {
     pub initial_temperature: f64,
     /// End of the run \[s\]. Allowed: `POSITIVE`.
     pub end: f64,
-    /// Time between two changes of radii, walls and contacts: heat flows, then grains grow and walls move \[s\].
-    /// Allowed: `INTERVAL`.
+    /// Time between two changes of radii, walls and contacts: heat flows, then grains grow and walls move. Heated walls have the
+    /// temperature of the middle of each interval, so it has to be short where that changes fast \[s\]. Allowed: `INTERVAL`.
     pub interval: f64,
     /// Steps of the discrete elements in each interval, at least; where the bed lags there are more. Allowed: `STEPS`.
     pub steps: u64,
