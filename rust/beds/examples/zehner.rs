@@ -189,10 +189,14 @@ const BRIGHT: [&[[f64; 2]]; 2] = [
 fn handbook(series: &Series, [steel, ceramic]: [&[[f64; 2]]; 2]) -> f64 {
     let rows = match series.material.as_str() {
         "steel" => steel,
-        "steatite" | "ceramic" => ceramic,
+        _ if is_ceramic(series) => ceramic,
         _ => return series.emissivity,
     };
     Property::Table(rows.to_vec()).at(series.temperature.clamp(rows[0][0], rows[rows.len() - 1][0]))
+}
+
+fn is_ceramic(series: &Series) -> bool {
+    ["steatite", "ceramic"].contains(&series.material.as_str())
 }
 
 /// How radiation counts.
@@ -369,6 +373,10 @@ fn main() -> Any<()> {
         radiation: Radiation::Resisted,
     };
     let smooth = Inputs { roughness: None, ..one };
+    let rough = |height_over_slope| Inputs { roughness: Some(height_over_slope), ..one };
+    let way = |radiation| Inputs { radiation, ..one };
+    let [dull, bright]: [fn(&Series) -> f64; 2] = [|s| handbook(s, DULL), |s| handbook(s, BRIGHT)];
+    let [half, double]: [fn(f64) -> f64; 2] = [pore_width, |phi| 2.0 * pore_width(phi)];
     let kinds: [(&str, Inputs); 21] = [
         ("smooth", smooth),
         ("σ/m 0.34 µm", one),
@@ -376,45 +384,21 @@ fn main() -> Any<()> {
         ("σ/m 0.34 µm, pressure × 1/2", Inputs { pressure: 0.5, ..one }),
         ("σ/m 0.34 µm, accommodation 0.7", Inputs { accommodation: 0.7, ..one }),
         ("σ/m 0.34 µm, accommodation 1", Inputs { accommodation: 1.0, ..one }),
-        ("σ/m 1 µm", Inputs { roughness: Some(1e-6), ..one }),
-        ("σ/m 2 µm", Inputs { roughness: Some(2e-6), ..one }),
-        ("σ/m 5 µm", Inputs { roughness: Some(5e-6), ..one }),
-        ("σ/m 20 µm", Inputs { roughness: Some(20e-6), ..one }),
-        (
-            "σ/m 2 µm, emissivity × 0.8",
-            Inputs { roughness: Some(2e-6), emissivity: |s| 0.8 * s.emissivity, ..one },
-        ),
-        ("σ/m 0.34 µm, emissivities of handbooks, dull", Inputs { emissivity: |s| handbook(s, DULL), ..one }),
-        (
-            "σ/m 2 µm, emissivities of handbooks, dull",
-            Inputs { roughness: Some(2e-6), emissivity: |s| handbook(s, DULL), ..one },
-        ),
-        (
-            "σ/m 0.34 µm, emissivities of handbooks, bright",
-            Inputs { emissivity: |s| handbook(s, BRIGHT), ..one },
-        ),
-        (
-            "σ/m 2 µm, conductivity of the spheres × 0.8",
-            Inputs { roughness: Some(2e-6), conductivity: 0.8, ..one },
-        ),
-        ("σ/m 0.34 µm, without radiation", Inputs { radiation: Radiation::None, ..one }),
-        ("σ/m 2 µm, without radiation", Inputs { roughness: Some(2e-6), radiation: Radiation::None, ..one }),
-        (
-            "σ/m 0.34 µm, radiation without resistance of the spheres",
-            Inputs { radiation: Radiation::Isothermal, ..one },
-        ),
-        (
-            "σ/m 0.34 µm, radiation in pores of the width 2V/S",
-            Inputs { radiation: Radiation::InPores(pore_width), ..one },
-        ),
-        (
-            "σ/m 0.34 µm, radiation in pores of the width 4V/S",
-            Inputs { radiation: Radiation::InPores(|phi| 2.0 * pore_width(phi)), ..one },
-        ),
-        (
-            "σ/m 0.34 µm, radiation in pores of the width d",
-            Inputs { radiation: Radiation::InPores(|_| 1.0), ..one },
-        ),
+        ("σ/m 1 µm", rough(1e-6)),
+        ("σ/m 2 µm", rough(2e-6)),
+        ("σ/m 5 µm", rough(5e-6)),
+        ("σ/m 20 µm", rough(20e-6)),
+        ("σ/m 2 µm, emissivity × 0.8", Inputs { emissivity: |s| 0.8 * s.emissivity, ..rough(2e-6) }),
+        ("σ/m 0.34 µm, emissivities of handbooks, dull", Inputs { emissivity: dull, ..one }),
+        ("σ/m 2 µm, emissivities of handbooks, dull", Inputs { emissivity: dull, ..rough(2e-6) }),
+        ("σ/m 0.34 µm, emissivities of handbooks, bright", Inputs { emissivity: bright, ..one }),
+        ("σ/m 2 µm, conductivity of the spheres × 0.8", Inputs { conductivity: 0.8, ..rough(2e-6) }),
+        ("σ/m 0.34 µm, without radiation", way(Radiation::None)),
+        ("σ/m 2 µm, without radiation", Inputs { radiation: Radiation::None, ..rough(2e-6) }),
+        ("σ/m 0.34 µm, radiation without resistance of the spheres", way(Radiation::Isothermal)),
+        ("σ/m 0.34 µm, radiation in pores of the width 2V/S", way(Radiation::InPores(half))),
+        ("σ/m 0.34 µm, radiation in pores of the width 4V/S", way(Radiation::InPores(double))),
+        ("σ/m 0.34 µm, radiation in pores of the width d", way(Radiation::InPores(|_| 1.0))),
     ];
     let shown: Vec<&Series> =
         all.iter().filter(|s| !APART.iter().any(|name| s.name.starts_with(name))).collect();
@@ -424,12 +408,8 @@ fn main() -> Any<()> {
         ("steel > 350 K", |s| s.material == "steel" && s.temperature > 350.0),
         ("steel", |s| s.material == "steel"),
         ("copper", |s| s.material == "copper"),
-        ("ceramics < 350 K", |s| {
-            ["steatite", "ceramic"].contains(&s.material.as_str()) && s.temperature < 350.0
-        }),
-        ("ceramics > 350 K", |s| {
-            ["steatite", "ceramic"].contains(&s.material.as_str()) && s.temperature > 350.0
-        }),
+        ("ceramics < 350 K", |s| is_ceramic(s) && s.temperature < 350.0),
+        ("ceramics > 350 K", |s| is_ceramic(s) && s.temperature > 350.0),
     ];
     let counts = groups.map(|(name, of)| format!("{name}, {}", shown.iter().filter(|s| of(s)).count()));
     println!("| error [%]: rms (median) | {} |", counts.join(" | "));
