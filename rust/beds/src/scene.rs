@@ -35,8 +35,8 @@ pub struct Scene {
     /// Seed of the packing.
     #[serde(default = "one")]
     pub seed: u64,
-    /// Heat released in the spheres, over their volume \[W/m³\]. Allowed: `SOURCES`. Temperatures that it causes beyond those of start
-    /// and walls are not known beforehand: tables have to reach so far. Default: none.
+    /// Heat released in the spheres, over their volume. Tables have to reach the temperatures that it causes, which are not known
+    /// beforehand \[W/m³\]. Allowed: `SOURCES`. Default: none.
     pub heat_source: Option<f64>,
     /// A section: the spheres.
     pub grains: Grains,
