@@ -160,6 +160,21 @@ inline double gasConductivity(const std::string& gas, double temperature)
     return conductivity;
 }
 
+/** Properties of a gas that flows, see msdd_gas_properties. */
+struct GasProperties
+{
+    double viscosity, conductivity, heatCapacity, molarMass, coldest, hottest;
+};
+
+/** Those at a temperature [K]. Throws Error. */
+inline GasProperties gasProperties(const std::string& gas, double temperature)
+{
+    const detail::MaskedTraps masked;
+    double found[6] = {};
+    detail::check(msdd_gas_properties(gas.c_str(), temperature, found));
+    return GasProperties{found[0], found[1], found[2], found[3], found[4], found[5]};
+}
+
 /** A surrogate model: immutable, movable, not copyable. */
 class Surrogate
 {

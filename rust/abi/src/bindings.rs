@@ -848,4 +848,9 @@ unsafe extern "C" {
         temperature: f64,
         conductivity: *mut f64,
     ) -> i32;
+    pub fn msdd_gas_properties(
+        gas: *const ::core::ffi::c_char,
+        temperature: f64,
+        properties: *mut f64,
+    ) -> i32;
 }

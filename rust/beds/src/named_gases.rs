@@ -15,6 +15,19 @@ use std::f64::consts::PI;
 /// R \[J/(mol K)\].
 const GAS_CONSTANT: f64 = 8.314_462_618;
 
+/// A gas that flows, at low density.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FlowingGas {
+    /// \[Pa s\]
+    pub viscosity: f64,
+    /// \[W/(m K)\]
+    pub conductivity: f64,
+    /// At constant pressure \[J/(kg K)\].
+    pub heat_capacity: f64,
+    /// \[kg/mol\]
+    pub molar_mass: f64,
+}
+
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum GasName {
@@ -50,8 +63,7 @@ impl GasName {
 
     /// The gas at a temperature \[K\] and pressure \[Pa\], with the accommodation at the spheres; none in a vacuum.
     pub fn at(self, temperature: f64, pressure: f64, accommodation: f64) -> Option<Gas> {
-        let molar_mass = self.molar_mass()?;
-        let (viscosity, conductivity) = self.transport(temperature)?;
+        let FlowingGas { viscosity, conductivity, molar_mass, .. } = self.flowing(temperature)?;
         let heat_capacity = self.heat_capacity(temperature);
         let speed = (PI * GAS_CONSTANT * temperature / (2.0 * molar_mass)).sqrt();
         Some(Gas {
@@ -61,6 +73,14 @@ impl GasName {
             heat_capacity_ratio: heat_capacity / (heat_capacity - 1.0),
             accommodation,
         })
+    }
+
+    /// What a flow of the gas depends on at a temperature \[K\]; none in a vacuum.
+    pub fn flowing(self, temperature: f64) -> Option<FlowingGas> {
+        let molar_mass = self.molar_mass()?;
+        let (viscosity, conductivity) = self.transport(temperature)?;
+        let heat_capacity = self.heat_capacity(temperature) * GAS_CONSTANT / molar_mass;
+        Some(FlowingGas { viscosity, conductivity, heat_capacity, molar_mass })
     }
 
     /// \[kg/mol\]
@@ -136,6 +156,23 @@ mod tests {
             let gas = name.at(temperature, 101_325.0, 0.9).unwrap();
             let errors = [gas.conductivity / conductivity - 1.0, gas.prandtl / prandtl - 1.0];
             assert!(errors[0].abs() < 0.03 && errors[1].abs() < 0.05, "{name:?} {temperature} {errors:?}");
+        }
+    }
+
+    /// Viscosity and heat capacity of handbooks (VDI Heat Atlas, 2nd ed., D2.2 air; Incropera and DeWitt, table A.4).
+    #[test]
+    fn flowing_gases_are_those_of_handbooks() {
+        let cases = [
+            (GasName::Air, 300.0, 184.6e-7, 1007.0),
+            (GasName::Air, 600.0, 305.8e-7, 1051.0),
+            (GasName::Air, 1000.0, 424.4e-7, 1141.0),
+            (GasName::Nitrogen, 600.0, 290.8e-7, 1075.0),
+            (GasName::Helium, 300.0, 199.0e-7, 5193.0),
+        ];
+        for (name, temperature, viscosity, heat_capacity) in cases {
+            let gas = name.flowing(temperature).unwrap();
+            let errors = [gas.viscosity / viscosity - 1.0, gas.heat_capacity / heat_capacity - 1.0];
+            assert!(errors[0].abs() < 0.02 && errors[1].abs() < 0.006, "{name:?} {temperature} {errors:?}");
         }
     }
 

@@ -509,6 +509,12 @@ int32_t msdd_compared(const char *hash, const char *quantity, double *least, dou
  *  usual pressures. Beyond the temperatures at which it is known, that of the nearest. */
 int32_t msdd_gas_conductivity(const char *gas, double temperature, double *conductivity);
 
+/** Properties of a gas ("air", "nitrogen", "helium", "argon") that flows, at a temperature [K], 1 to 1e5, and usual pressures. Beyond
+ *  the temperatures at which it is known, those of the nearest. `properties` receives six numbers: viscosity [Pa s], conductivity
+ *  [W/(m K)], heat capacity at constant pressure [J/(kg K)], molar mass [kg/mol], and the least and largest temperature [K] at which
+ *  the gas is known. */
+int32_t msdd_gas_properties(const char *gas, double temperature, double *properties);
+
 #ifdef __cplusplus
 }
 #endif

@@ -56,6 +56,7 @@ same! {
     msdd_database_export_csv(*const c_char, *const c_char, *mut u64) -> i32;
     msdd_compared(*const c_char, *const c_char, *mut f64, *mut f64) -> i32;
     msdd_gas_conductivity(*const c_char, f64, *mut f64) -> i32;
+    msdd_gas_properties(*const c_char, f64, *mut f64) -> i32;
 }
 
 /// Checks that the list above contains every function of the header.

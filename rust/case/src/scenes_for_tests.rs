@@ -47,6 +47,7 @@ pub fn spheres() -> SphereScene {
         material: "steel".to_string(),
         spheres: MATERIALS[0].spheres(),
         gas: Gas { name: GasName::Helium, pressure: 1e5 },
+        flow: None,
         porosity: 0.4,
         pressure: 2e4,
         mechanics: Mechanics::Equilibrium,

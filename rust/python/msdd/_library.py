@@ -117,6 +117,7 @@ SIGNATURES: dict[str, tuple[Optional[type], list[type]]] = {
     "msdd_database_export_csv": (_STATUS, [_TEXT, _TEXT, c.POINTER(c.c_uint64)]),
     "msdd_compared": (_STATUS, [_TEXT, _TEXT, c.POINTER(c.c_double), c.POINTER(c.c_double)]),
     "msdd_gas_conductivity": (_STATUS, [_TEXT, c.c_double, c.POINTER(c.c_double)]),
+    "msdd_gas_properties": (_STATUS, [_TEXT, c.c_double, c.POINTER(c.c_double)]),
 }
 
 

@@ -63,3 +63,29 @@ pub unsafe extern "C" fn msdd_gas_conductivity(
         Ok(())
     })
 }
+
+/// `msdd_gas_properties`
+///
+/// # Safety
+/// `gas` is null or a C string; `properties` is null or holds six writable numbers.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn msdd_gas_properties(
+    gas: *const c_char,
+    temperature: f64,
+    properties: *mut f64,
+) -> i32 {
+    status(|| {
+        let out = writable("properties", properties)?;
+        // SAFETY: null or a C string by this function's contract.
+        let gas = named("gas", &unsafe { string("gas", gas)? })?;
+        let temperature = ranged("temperature", temperature, [1.0, 1e5], "1 to 1e5 K")?;
+        let [low, high] = gas.range();
+        let Some(found) = gas.flowing(temperature.clamp(low, high)) else {
+            return Err(Failure::argument("gas", "vacuum", "a gas that flows"));
+        };
+        let values = [found.viscosity, found.conductivity, found.heat_capacity, found.molar_mass, low, high];
+        // SAFETY: not null, six writable numbers by this function's contract.
+        unsafe { out.cast::<[f64; 6]>().write(values) };
+        Ok(())
+    })
+}

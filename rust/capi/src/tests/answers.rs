@@ -262,4 +262,16 @@ fn the_ranges_that_were_compared_are_told_by_the_hash_of_the_model() {
     assert_eq!(gas(c"helium".as_ptr(), 20.0), least);
     assert_eq!(gas(null(), 300.0), (MSDD_OK, 0.0));
     assert_eq!(gas(c"neon".as_ptr(), 300.0).0, MSDD_INVALID_ARGUMENT);
+
+    let flowing = |name: *const c_char, t| {
+        let mut found = [f64::NAN; 6];
+        // SAFETY: C strings or null, and six writable numbers.
+        (unsafe { msdd_gas_properties(name, t, found.as_mut_ptr()) }, found)
+    };
+    let (status, [_, conductivity, heat_capacity, molar_mass, least, most]) =
+        flowing(c"helium".as_ptr(), 300.0);
+    assert_eq!((status, conductivity, [least, most]), (MSDD_OK, helium, [273.0, 1800.0]));
+    assert!((heat_capacity * molar_mass / 8.314_462_618 - 2.5).abs() < 1e-12, "{heat_capacity} {molar_mass}");
+    assert_eq!(flowing(c"vacuum".as_ptr(), 300.0).0, MSDD_INVALID_ARGUMENT);
+    assert_eq!(flowing(null(), 300.0).0, MSDD_INVALID_ARGUMENT);
 }

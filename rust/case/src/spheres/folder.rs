@@ -10,6 +10,7 @@ use crate::folder::{File, programs};
 use crate::numbers::{plain, rounded};
 use crate::scene::Mechanics;
 use crate::values::{Values, fill, mechanics_name, source, times, wall_rows, walls};
+use std::f64::consts::PI;
 use std::path::Path;
 
 macro_rules! template {
@@ -186,6 +187,18 @@ fn bed_values(scene: &Scene, start: &Start) -> Result<Values, CaseError> {
     let [along, up] = FABRIC;
     Ok(vec![
         ("rest", rest(scene)),
+        ("flow", flow(scene)),
+        ("flowRow", flow_row(scene)),
+        (
+            "flowResult",
+            match scene.flow {
+                Some(_) => "\n- **Gas**: its temperature is `gasTemperature` in the time folders; mass flux, temperature at the outlet and \
+                            pressure drop over time are in `postProcessing/flow`."
+                    .to_string(),
+                None => String::new(),
+            },
+        ),
+        ("notFlow", if scene.flow.is_some() { "" } else { ", and flow of the gas" }.to_string()),
         ("gas", scene.gas.name.as_str().to_string()),
         ("gasPressure", plain(scene.gas.pressure)),
         ("accommodation", plain(ACCOMMODATION)),
@@ -280,6 +293,38 @@ fn rest(scene: &Scene) -> String {
         );
     }
     text
+}
+
+/// What `constant/granularProperties` says of the gas that flows.
+fn flow(scene: &Scene) -> String {
+    let Some(flow) = scene.flow else { return String::new() };
+    let [inlet, outlet] = flow.ends();
+    // The mesh of a cylinder is a wedge
+    let (share, note) = match scene.shape {
+        Shape::Box(_) => (1.0, ""),
+        Shape::Cylinder { .. } => (HALF_ANGLE / PI, "; the wedge has 1/72 of the mass flow of the bed"),
+    };
+    format!(
+        "\n// Gas that flows through the bed: mass flow [kg/s]{note}, and its temperature where it enters [K]. Both may be functions of\n\
+         // time, as massFlow table ((0 0.004) (3600 0)); gas that comes back then needs a temperature at the outlet\n\
+         flow                through;\n\
+         throughCoeffs\n{{\n    massFlow        {};\n    inlet           {{ patch {inlet}; temperature {}; }}\n    \
+         outlet          {{ patch {outlet}; }}\n}}\n",
+        plain(rounded(share * flow.mass, 10)),
+        plain(flow.temperature)
+    )
+}
+
+/// The flow, for README.md.
+fn flow_row(scene: &Scene) -> String {
+    scene.flow.map_or_else(String::new, |flow| {
+        let [inlet, outlet] = flow.ends();
+        format!(
+            "| flow | {} kg/s of {} K from {inlet} to {outlet} | `constant/granularProperties` |\n",
+            plain(flow.mass),
+            plain(flow.temperature)
+        )
+    })
 }
 
 /// The side of a cylinder as a shell.

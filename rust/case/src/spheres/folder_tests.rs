@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::scenes_for_tests::{spheres, text, walls as walls_of};
-use crate::spheres::scene::Shell;
+use crate::spheres::scene::{Flow, Shell};
 
 #[test]
 fn walls_and_stress_stand_where_the_solver_looks_for_them() {
@@ -19,6 +19,8 @@ fn walls_and_stress_stand_where_the_solver_looks_for_them() {
     let vessel = Scene { shell, ..closed.clone() };
     let rough = Scene { wall_friction: 0.3, ..closed };
     let still = Scene { mechanics: Mechanics::None, ..spheres() };
+    let flow = Some(Flow { mass: 0.0072, temperature: 813.0, upwards: true });
+    let blown = Scene { flow, walls: walls_of(["insulated"; 3]).to_vec(), ..spheres() };
     const GRAINS: &str = "constant/granularProperties";
     for (scene, path, words, there) in [
         (&plates, "0/stress", "uniform (-16000 0 0 -16000 0 -20000);", true),
@@ -45,6 +47,10 @@ fn walls_and_stress_stand_where_the_solver_looks_for_them() {
         (&rough, "constant/g", "value", true),
         (&rough, "0/stress", "uniform", true),
         (&still, GRAINS, "equilibriumCoeffs", false),
+        (&still, GRAINS, "throughCoeffs", false),
+        (&blown, GRAINS, "massFlow        0.0001;", true),
+        (&blown, GRAINS, "inlet           { patch bottom; temperature 813; }", true),
+        (&blown, "README.md", "| flow | 0.0072 kg/s of 813 K from bottom to top |", true),
     ] {
         let files =
             files(&Scene { heat_source: Some(3000.0), ..scene.clone() }, "bed", Path::new("/checkout"));

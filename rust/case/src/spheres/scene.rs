@@ -10,6 +10,7 @@ use crate::ranges::{self, allow};
 use crate::scene::Mechanics;
 use crate::walls::{self, WallOverTime};
 use msdd_beds::effective::LEAST_RATIO;
+use msdd_beds::named_gases::GasName;
 use msdd_rve::message::number;
 use std::f64::consts::PI;
 
@@ -34,6 +35,24 @@ pub struct Shell {
     pub thermal_expansion: f64,
 }
 
+/// Gas that flows through the bed from one end to the other.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Flow {
+    /// Through the whole bed \[kg/s\], > 0.
+    pub mass: f64,
+    /// Of the gas that enters \[K\].
+    pub temperature: f64,
+    /// Whether it enters at the bottom, else at the top.
+    pub upwards: bool,
+}
+
+impl Flow {
+    /// Names of the walls where the gas enters and leaves.
+    pub fn ends(&self) -> [&'static str; 2] {
+        if self.upwards { ["bottom", "top"] } else { ["top", "bottom"] }
+    }
+}
+
 /// All parameters of a new case. SI units.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scene {
@@ -48,6 +67,7 @@ pub struct Scene {
     pub material: String,
     pub spheres: Spheres,
     pub gas: Gas,
+    pub flow: Option<Flow>,
     /// 1 − volume of the spheres over the volume.
     pub porosity: f64,
     /// Pressure on the top at the start, which is the vertical stress there \[Pa\].
@@ -117,6 +137,7 @@ impl Scene {
         self.spheres.check()?;
         self.check_mesh()?;
         self.check_heat()?;
+        self.check_flow()?;
         check_pressure(self.spheres, self.pressure)?;
         check_porosity(self.spheres, self.pressure, self.porosity)?;
         self.check_mechanics()?;
@@ -159,6 +180,27 @@ impl Scene {
             })?;
         }
         self.heat_source.map_or(Ok(()), ranges::heat_source)
+    }
+
+    fn check_flow(&self) -> Result<(), CaseError> {
+        let Some(flow) = self.flow else { return Ok(()) };
+        allow("flow", flow.mass, flow.mass > 0.0 && flow.mass <= 1e6, || {
+            "more than 0, at most 1e6 kg/s".to_string()
+        })?;
+        ranges::temperature_with(self.gas.name, "flow temperature", flow.temperature)?;
+        if self.gas.name == GasName::Vacuum {
+            return refuse("gas", "vacuum", "with a flow: air, nitrogen, helium, argon");
+        }
+        let warm = self
+            .shape
+            .walls()
+            .iter()
+            .zip(self.warm())
+            .find(|(name, warm)| *warm && flow.ends().contains(name));
+        match warm {
+            Some((name, _)) => refuse(name, "a temperature", "insulated: the gas flows through this wall"),
+            None => Ok(()),
+        }
     }
 
     fn check_mechanics(&self) -> Result<(), CaseError> {
@@ -250,7 +292,11 @@ impl Scene {
 
     /// Least and largest temperature of the initial state and of the walls at any time \[K\].
     pub fn temperatures(&self) -> [f64; 2] {
-        walls::temperatures(self.initial_temperature, &self.walls)
+        let [least, most] = walls::temperatures(self.initial_temperature, &self.walls);
+        match self.flow {
+            Some(flow) => [least.min(flow.temperature), most.max(flow.temperature)],
+            None => [least, most],
+        }
     }
 
     /// Which walls have a temperature.
@@ -264,7 +310,7 @@ impl Scene {
         let mut varies: Vec<bool> =
             self.shape.heat_ways(&self.warm()).into_iter().map(f64::is_finite).collect();
         if let Some(up) = varies.last_mut() {
-            *up |= self.gravity > 0.0;
+            *up |= self.gravity > 0.0 || self.flow.is_some();
         }
         if self.wall_friction > 0.0 {
             varies.fill(true);
@@ -275,6 +321,9 @@ impl Scene {
     /// The direction along which heat has the shortest way; the first if no wall has a temperature.
     pub fn steepest(&self) -> usize {
         let ways = self.shape.heat_ways(&self.warm());
+        if self.flow.is_some() {
+            return ways.len() - 1;
+        }
         (0..ways.len()).min_by(|&a, &b| ways[a].total_cmp(&ways[b])).unwrap_or(0)
     }
 
@@ -298,11 +347,19 @@ impl Scene {
         Ok(self.start()?.conductivity / storage)
     }
 
-    /// Proposed end time L²/D \[s\], rounded to two digits, with the length L = [`Scene::heat_way`].
+    /// Proposed end time \[s\], rounded to two digits: with a flow the time in which its front crosses the bed, else L²/D with the
+    /// length L = [`Scene::heat_way`].
     ///
     /// # Errors
     /// As for [`Scene::start`].
     pub fn proposed_end(&self) -> Result<f64, CaseError> {
+        if let Some(flow) = self.flow
+            && let Some(gas) = self.gas.name.flowing(flow.temperature)
+        {
+            let grains = &self.spheres.grains;
+            let stored = grains.density * grains.heat_capacity * (1.0 - self.porosity) * self.shape.volume();
+            return Ok(rounded(stored / (flow.mass * gas.heat_capacity), 2));
+        }
         let way = self.heat_way();
         Ok(rounded(way * way / self.diffusivity()?, 2))
     }

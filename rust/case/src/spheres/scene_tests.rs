@@ -33,6 +33,31 @@ fn wishes_out_of_range_are_refused_with_key_value_and_range() {
 }
 
 #[test]
+fn a_flow_needs_a_gas_and_open_ends() {
+    let flow = Flow { mass: 0.004, temperature: 813.0, upwards: false };
+    let walls = vec![parse_wall("insulated").unwrap(); 3];
+    let scene = Scene { flow: Some(flow), walls, ..spheres() };
+    each_is_refused(
+        &scene,
+        Scene::check,
+        &[
+            (|s| s.flow.as_mut().unwrap().mass = -1.0, "flow = -1, allowed: more than 0"),
+            (|s| s.flow.as_mut().unwrap().temperature = 100.0, "flow temperature = 100, allowed: 273 to"),
+            (|s| s.gas.name = GasName::Vacuum, "gas = vacuum, allowed: with a flow"),
+            (|s| s.walls[2] = parse_wall("400").unwrap(), "top = a temperature, allowed: insulated"),
+        ],
+    );
+    // The gas heats the bed from 293 to 813 K along its axis, with its heat in the time that is proposed
+    assert_eq!(
+        (scene.temperatures(), scene.varies(), scene.steepest()),
+        ([293.0, 813.0], vec![false, true], 1)
+    );
+    let stored = 7800.0 * 475.0 * 0.6 * PI * 0.1 * 0.1 * 0.4;
+    let end = stored / (0.004 * GasName::Helium.flowing(813.0).unwrap().heat_capacity);
+    assert!((scene.proposed_end().unwrap() / end - 1.0).abs() < 0.05, "{end}");
+}
+
+#[test]
 fn proposals_follow_spheres_walls_and_diffusion() {
     let scene = spheres();
     assert_eq!((scene.varies(), scene.steepest(), scene.heat_way()), (vec![true, true], 0, 0.1));

@@ -9,7 +9,9 @@ use msdd_case::numbers::{plain, rounded};
 use msdd_case::ranges;
 use msdd_case::scene::{Mechanics, parse_sides, parse_wall};
 use msdd_case::spheres::material::{Emissivity, MATERIALS, Spheres, presets};
-use msdd_case::spheres::scene::{BED_HAS, GRAVITY, Lid, Scene, Shell, check_porosity, check_pressure};
+use msdd_case::spheres::scene::{
+    BED_HAS, Flow, GRAVITY, Lid, Scene, Shell, check_porosity, check_pressure,
+};
 use msdd_case::spheres::shape::Shape;
 use msdd_case::spheres::start::Gas;
 use msdd_case::spheres::wall;
@@ -69,6 +71,16 @@ pub struct SphereWishes {
     /// Pressure of the gas [Pa]. Allowed: 1e-3 to 1e9. Default: 1.013e5.
     #[arg(long, value_name = "PA", requires = "spheres")]
     gas_pressure: Option<f64>,
+    /// Mass flow of the gas through the whole bed [kg/s], from its top to its bottom or as `--flow-from` says; 0: no flow.
+    /// Default: no flow.
+    #[arg(long, value_name = "KG/S", requires = "spheres", requires = "flow_temperature")]
+    flow: Option<f64>,
+    /// Temperature of the gas that flows in [K].
+    #[arg(long, value_name = "K", requires = "flow")]
+    flow_temperature: Option<f64>,
+    /// Where the gas flows in. Default: `top`.
+    #[arg(long, value_enum, requires = "flow")]
+    flow_from: Option<FlowEnd>,
     /// Whether the top goes on pressing with the pressure of the start, as a stiff plate that gives way, or stays where it
     /// is. Default: `presses`.
     #[arg(long, value_enum, requires = "spheres")]
@@ -97,6 +109,12 @@ pub struct SphereWishes {
 enum ShapeName {
     Box,
     Cylinder,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum FlowEnd {
+    Top,
+    Bottom,
 }
 
 #[derive(Clone, Copy, ValueEnum)]
@@ -143,7 +161,8 @@ impl SphereWishes {
         let known = |name: &str, value: f64| ranges::temperature_with(gas.name, name, value);
         let initial_temperature = common.ask_initial(asker, coldest(&given).unwrap_or(usual), known)?;
         let read = asker.within(parse_wall, |wall| ranges::wall(wall, |value| known("wall", value)));
-        let walls = ask_walls(asker, &shape, given, initial_temperature, read)?;
+        let flow = self.given_flow();
+        let walls = ask_walls(asker, &shape, given, initial_temperature, flow.is_some(), read)?;
         let (porosity, pressure) = ask_start(common, asker, spheres)?;
         let mechanics = common.ask_mechanics(asker, MechanicsName::Equilibrium)?;
         let (lid, wall_friction, gravity) = self.ask_load(asker, mechanics)?;
@@ -156,6 +175,7 @@ impl SphereWishes {
             material,
             spheres,
             gas,
+            flow,
             porosity,
             pressure,
             mechanics,
@@ -304,6 +324,12 @@ impl SphereWishes {
         Ok(Gas { name, pressure })
     }
 
+    fn given_flow(&self) -> Option<Flow> {
+        let (mass, temperature) = (self.flow?, self.flow_temperature?);
+        let upwards = matches!(self.flow_from, Some(FlowEnd::Bottom));
+        (mass != 0.0).then_some(Flow { mass, temperature, upwards })
+    }
+
     /// What the top does, the friction of walls, and gravity, where spheres move.
     fn ask_load(&self, asker: &Asker, mechanics: Mechanics) -> Result<(Lid, f64, f64), CliError> {
         if mechanics == Mechanics::None {
@@ -341,16 +367,17 @@ impl SphereWishes {
     }
 }
 
-/// Where options gave any wall, the others are insulated unless answered otherwise; else the first one is hot, and one beside it has
+/// Where options gave any wall or a flow, the others are insulated unless answered otherwise; else the first one is hot, and one beside it has
 /// the temperature of the start.
 fn ask_walls(
     asker: &Asker,
     shape: &Shape,
     given: Vec<Option<WallOverTime>>,
     initial: f64,
+    flows: bool,
     read: impl Fn(&str) -> Result<WallOverTime, String>,
 ) -> Result<Vec<WallOverTime>, CliError> {
-    let any = given.iter().any(Option::is_some);
+    let any = flows || given.iter().any(Option::is_some);
     let walls = shape.walls().iter().zip(given).enumerate().map(|(k, (name, given))| {
         let proposal = match k {
             0 if !any => plain(initial + HOTTER),
