@@ -60,7 +60,7 @@ Foam::heatEquation::heatEquation
 (
     volScalarField& T,
     const granularProperties& properties,
-    const granularState& grains,
+    granularState& grains,
     neighbourSolids& neighbours,
     const label correctors
 )
@@ -69,6 +69,7 @@ Foam::heatEquation::heatEquation
     mesh_(T.mesh()),
     sources_(fv::options::New(mesh_)),
     neighbours_(neighbours),
+    flow_(granularFlow::New(properties, grains, T)),
     heat_(properties.heatFunction()),
     heatCapacity_
     (
@@ -397,19 +398,31 @@ void Foam::heatEquation::solveBed
             addTensor();
         }
         const tmp<fvScalarMatrix> S(addSources());
-        TEqn_.solve(controls_);
-
+        bool flowed = true;
+        if (flow_->active())
+        {
+            flowed = flow_->solve
+            (
+                TEqn_, tau, controls_.get<scalar>("tolerance")
+            );
+        }
+        else
+        {
+            TEqn_.solve(controls_);
+        }
         const bool sourced = finishSources(S);
         if
         (
             corrector >= least
          && sourced
+         && flowed
          && (heat_.isNumber() || hasSettled(before))
         )
         {
             break;
         }
     }
+    sourceHeat_ += flow_->heat();
 }
 
 
@@ -433,6 +446,7 @@ void Foam::heatEquation::solve
     {
         setTensor(K);
     }
+    flow_->beginStage();
     neighbours_.couple(tau, [&]() { solveBed(Tstar, tau, K); });
 
     // Constraints cut their cells off from the walls

@@ -175,6 +175,7 @@ bool Foam::heatEquation::finishSources(const tmp<fvScalarMatrix>& S)
 
 void Foam::heatEquation::addLoads(loadHistories& loads)
 {
+    flow_->addLoads(loads);
     const PtrList<fv::option>& all = sources_;
     for (const fv::option& source : all)
     {

@@ -232,7 +232,8 @@ int main(int argc, char *argv[])
     made.neighbours->report();
     summary.write
     (
-        scheme.rejected(), warnings.all(), made.neighbours->doubt()
+        scheme.rejected(), warnings.all(), made.neighbours->doubt(),
+        scheme.flow()
     );
 
     Info<< "End\n" << endl;

@@ -103,7 +103,8 @@ void Foam::runSummary::write
 (
     const label rejected,
     const UList<string>& warnings,
-    const string& solids
+    const string& solids,
+    const granularFlow& flow
 ) const
 {
     const fvMesh& mesh = grains_.mesh();
@@ -130,6 +131,13 @@ void Foam::runSummary::write
 
     const heatBalance heat(this->heat());
     DynamicList<string> sentences(runRecord::notes);
+    for (const string& sentence : flow.sentences())
+    {
+        if (!sentence.empty())
+        {
+            sentences.append(sentence);
+        }
+    }
     for
     (
         const string& sentence :
@@ -188,6 +196,11 @@ void Foam::runSummary::write
         << ", \"stored\": " << heat.stored
         << ", \"exchanged\": " << heat.exchanged
         << ", \"relative_difference\": " << heat.difference() << "},\n";
+    const string flowing(flow.summary());
+    if (!flowing.empty())
+    {
+        os  << "  \"flow\": " << flowing.c_str() << ",\n";
+    }
     writeCourse(os, heat, warnings);
     os  << "  \"what_to_know\": [";
     forAll(sentences, i)

@@ -133,6 +133,7 @@ void Foam::sceneWarnings::checkTemperatures()
     if
     (
         !strange_ && walls_.size() && !sources_.size()
+     && properties_.getOrDefault<word>("flow", "none") == "none"
      && all.most - all.least <= rounding*mag(all.most)
     )
     {

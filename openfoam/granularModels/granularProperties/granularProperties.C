@@ -99,6 +99,16 @@ const Foam::keyTable Foam::granularProperties::grainKeys
             "a dictionary", "empty"
         },
         {
+            "flow",
+            "gas that flows through the bed. `through`: in one direction, with"
+            " the same mass flux over the cross-section, see below", "-",
+            "none, through", "none"
+        },
+        {
+            "throughCoeffs", "settings of `flow through`", "-", "a dictionary",
+            "required with it"
+        },
+        {
             "restStress",
             "initial stress of a bed at rest under its own weight, instead of"
             " the field `stress`; requires gravity, and any surrogate type but"

@@ -153,6 +153,21 @@ Foam::dictionary Foam::granularState::settings() const
             wordHashSet({"residual", "maxIterations", "maxResidual"})
         )
     );
+    const word flow(properties_.lookupOrDefault<word>("flow", "none"));
+    if (flow != "none")
+    {
+        // What is given at the ends may change, as the conditions of T may
+        add("flow", flow);
+        add
+        (
+            "flowCoeffs",
+            shown
+            (
+                properties_.subOrEmptyDict(flow + "Coeffs"),
+                wordHashSet({"inlet", "outlet", "massFlow", "massFlux"})
+            )
+        );
+    }
     return all;
 }
 

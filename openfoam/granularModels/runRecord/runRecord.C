@@ -78,6 +78,7 @@ void Foam::runRecord::readFrom(const timeFolder& folder)
     dict.readIfPresent("leastT", leastT);
     dict.readIfPresent("mostT", mostT);
     course.read(dict.subOrEmptyDict("course"));
+    dict.readIfPresent("flow", flow);
     scheme = dict.lookupOrDefault<word>("timeScheme", word::null);
     settings_ = dict.subOrEmptyDict("settings");
 
@@ -284,6 +285,10 @@ void Foam::runRecord::writeLast()
     os.writeEntry("initialMass", initialMass);
     os.writeEntry("startHeat", startHeat);
     course.written().writeEntry("course", os);
+    if (flow.size())
+    {
+        os.writeEntry("flow", flow);
+    }
     os.writeEntry("sourceHeat", sourceHeat);
     os.writeEntry("exchanged", exchanged);
 

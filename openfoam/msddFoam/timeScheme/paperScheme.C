@@ -63,6 +63,7 @@ void Foam::timeSchemes::paper::step()
     setLog();
     Told_ = T_.primitiveField();
     neighbours_.begin();
+    heat_.flow().begin();
     grains_.extrapolateTemperature(T_.primitiveFieldRef());
 
     stepWatch::doing("the model");

@@ -202,6 +202,7 @@ void Foam::timeSchemes::secondOrder::see()
             look(patch);
         }
     }
+    heat_.flow().extend(record.leastT, record.mostT);
     // On all processes alike, because the size of the steps follows from it
     reduce(record.leastT, minOp<scalar>());
     reduce(record.mostT, maxOp<scalar>());
@@ -358,6 +359,7 @@ Foam::scalar Foam::timeSchemes::secondOrder::stages(const scalar deltaT)
         stage_[celli] = before[celli] + (1 - gamma2)*rate_[celli];
     }
     neighbours_.secondStage(gamma2);
+    heat_.flow().secondStage(gamma2);
     time_.value() = start + deltaT;
     heat_.solve(stage_, gamma2*deltaT, K);
     time_.value() = start;
@@ -463,6 +465,7 @@ void Foam::timeSchemes::secondOrder::accountStages(const scalar deltaT)
         deltaT*mean(firstOutside_, neighbours_.heat()),
         deltaT*mean(ofNeighbours(firstHeat_), ofNeighbours(heat_.patchHeat()))
     );
+    heat_.flow().finish(deltaT, gamma2);
 }
 
 
@@ -485,6 +488,7 @@ void Foam::timeSchemes::secondOrder::step()
     Told_ = T_.primitiveField();
     startK_ = mechanics_.pulledBack(grains_.conductivityOfCells());
     neighbours_.begin();
+    heat_.flow().begin();
 
     while (true)
     {
@@ -508,6 +512,7 @@ void Foam::timeSchemes::secondOrder::step()
         ++rejected_;
         T_.primitiveFieldRef() = Told_;
         neighbours_.restore();
+        heat_.flow().restore();
         const scalar factor =
             cut ? 0.5 : max(largestCut, safety/std::sqrt(error));
         deltaT = fitted(max(minDeltaT_, deltaT*factor));

@@ -213,6 +213,7 @@ void Foam::timeScheme::account(const scalar interval)
     (
         interval*neighbours_.heat(), interval*ofNeighbours(heat)
     );
+    heat_.flow().finish(interval, 1);
 }
 
 
@@ -290,6 +291,7 @@ Foam::scalar Foam::timeScheme::ofNeighbours(const scalarList& heat) const
 void Foam::timeScheme::tryHeat()
 {
     neighbours_.begin();
+    heat_.flow().begin();
     // One iteration shows whether the linear solver can be made
     const_cast<dictionary&>(T_.mesh().solverDict(T_.name())).set("maxIter", 1);
     heat_.solve

@@ -9,9 +9,7 @@ use msdd_case::numbers::{plain, rounded};
 use msdd_case::ranges;
 use msdd_case::scene::{Mechanics, parse_sides, parse_wall};
 use msdd_case::spheres::material::{Emissivity, MATERIALS, Spheres, presets};
-use msdd_case::spheres::scene::{
-    BED_HAS, Flow, GRAVITY, Lid, Scene, Shell, check_porosity, check_pressure,
-};
+use msdd_case::spheres::scene::{BED_HAS, Flow, GRAVITY, Lid, Scene, Shell, check_porosity, check_pressure};
 use msdd_case::spheres::shape::Shape;
 use msdd_case::spheres::start::Gas;
 use msdd_case::spheres::wall;

@@ -1,0 +1,388 @@
+/*---------------------------------------------------------------------------*\
+  =========                 |
+  \\      /  F ield         | MSDD: multiscale data-driven heat conduction
+   \\    /   O peration     |       in granular media
+    \\  /    A nd           | for OpenFOAM v1912
+     \\/     M anipulation  |
+-------------------------------------------------------------------------------
+License
+    SPDX-License-Identifier: GPL-3.0-or-later
+
+    This program is free software: you can redistribute it and/or modify it
+    under the terms of the GNU General Public License as published by the Free
+    Software Foundation, either version 3 of the License, or (at your option)
+    any later version. It comes without any warranty: see the file LICENSE.
+\*---------------------------------------------------------------------------*/
+
+#include "throughFlow.H"
+#include "OFstream.H"
+#include "OSspecific.H"
+#include "functionObject.H"
+
+#include <cmath>
+
+// * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+
+//- Bounds of what the flow is valid for: speed over that of sound, pressure drop
+//- over the pressure, Biot number of the grains' inside over 5
+static const scalar mostMach = 0.3, mostShare = 0.3, mostBiot = 5;
+
+//- A difference of the balances, over the heat that passed, that is neither
+//- rounding nor the tolerance of the linear solver
+static const scalar mostDifference = 1e-6;
+
+//- Largest change of a front erf(x) by a relative change of its width
+static const scalar frontSlope = 0.242;
+
+static const keyTable flowColumns
+(
+    "flow.dat",
+    {
+        {"massFlux", "superficial mass flux, positive from inlet to outlet", "kg/(m2 s)"},
+        {"inletTemperature", "temperature of the gas that enters", "K"},
+        {"outletTemperature", "mixed temperature of the gas that leaves", "K"},
+        {"pressureDrop", "pressure drop over the bed", "Pa"},
+        {"heat", "heat that the gas gives to grains and vessel", "W"}
+    }
+);
+
+} // End namespace Foam
+
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+Foam::scalar Foam::granularFlows::through::pressureDrop
+(
+    const scalar factor
+) const
+{
+    scalar sum = 0;
+    const scalarField& V = mesh_.V();
+    forAll(V, celli)
+    {
+        const scalar T = gasT_[celli];
+        sum +=
+            V[celli]*factor*dragOf(celli)
+           *(gas_.compressible() ? gas_.gasConstant()*T : 1/gas_.density(T, 0));
+    }
+    sum = returnReduce(sum, sumOp<scalar>())/area_;
+    const scalar p = gas_.pressure();
+    return gas_.compressible() ? 2*sum/(p + std::sqrt(p*p + 2*sum)) : sum;
+}
+
+
+Foam::scalar Foam::granularFlows::through::dragOf(const label celli) const
+{
+    const bedCorrelations::state s(state(celli));
+    return
+        dragFactor_*drag_.value(s)*gas_.viscosity(gasT_[celli])*mag(G_)
+       *sqr((1 - s.porosity)/diameter(celli))/pow3(s.porosity);
+}
+
+
+void Foam::granularFlows::through::observe()
+{
+    label outsideDrag = 0, outsideExchange = 0, outsideGas = 0;
+    scalar excess = -GREAT;
+    drop_ = 0;
+    if (G_ != 0)
+    {
+        const scalar up = -(properties_.gravity() & axis_)*sign(G_);
+        forAll(gasT_, celli)
+        {
+            const scalar T = gasT_[celli];
+            const bedCorrelations::state s(state(celli));
+            const scalar d = diameter(celli), ratio = width_/d;
+            outsideDrag += !drag_.isValid(s, ratio);
+            outsideExchange +=
+                !constantExchange_ && !exchangeLaw_.isValid(s, ratio);
+            outsideGas += !gas_.isKnown(T);
+            leastRe_ = min(leastRe_, s.Re);
+            mostRe_ = max(mostRe_, s.Re);
+            coldest_ = min(coldest_, T);
+            hottest_ = max(hottest_, T);
+            const scalar rho = gas_.density(T, gas_.pressure());
+            if (gas_.compressible())
+            {
+                const scalar c = gas_.capacity(T), R = gas_.gasConstant();
+                largestMach_ = max
+                (
+                    largestMach_,
+                    mag(G_)/(rho*s.porosity*std::sqrt(c/(c - R)*R*T))
+                );
+            }
+            if (!constantExchange_)
+            {
+                largestBiot_ = max
+                (
+                    largestBiot_,
+                    exchangeLaw_.value(s)*gas_.conductivity(T)
+                   /(2*properties_.conductivityFunction().value(T_[celli]))
+                );
+            }
+            if (up > 0)
+            {
+                excess = max
+                (
+                    excess,
+                    dragOf(celli)/rho
+                   /((1 - s.porosity)*(properties_.density().value() - rho)*up)
+                );
+            }
+        }
+        drop_ = pressureDrop(1);
+        largestDrop_ = max(largestDrop_, drop_);
+        largestShare_ = max(largestShare_, drop_/gas_.pressure());
+    }
+    for (label* each : {&outsideDrag, &outsideExchange, &outsideGas})
+    {
+        reduce(*each, sumOp<label>());
+    }
+    reduce(excess, maxOp<scalar>());
+    if (excess > 1)
+    {
+        FatalErrorInFunction
+            << "The bed would lift at time " << mesh_.time().timeName()
+            << ": the gas flows upwards with "
+            << mag(G_) << " kg/(m2 s), and its pressure gradient is up to "
+            << excess << " times the weight of the grains, allowed: below 1"
+            << exit(FatalError);
+    }
+    const auto warn = [&](const label now, label& before, const string& what)
+    {
+        if (now > 0 && before == 0)
+        {
+            Info<< "Warning: from time " << mesh_.time().timeName() << " on "
+                << now << " cells are out of the range of " << what.c_str()
+                << nl;
+        }
+        before = max(before, now);
+    };
+    warn(outsideDrag, outsideDrag_, "the drag " + string(drag_.name));
+    warn
+    (
+        outsideExchange, outsideExchange_,
+        "the heat exchange " + string(exchangeLaw_.name)
+    );
+    warn(outsideGas, outsideGas_, "the properties of " + string(gas_.name()));
+    if (solverPerformance::debug)
+    {
+        Info<< "Flow: G " << G_ << " kg/(m2 s), outlet " << last_.outletT
+            << " K, pressure drop " << drop_ << " Pa" << nl;
+    }
+    writeLine();
+}
+
+
+void Foam::granularFlows::through::writeLine()
+{
+    if (!Pstream::master())
+    {
+        return;
+    }
+    if (!table_.valid())
+    {
+        const fileName folder
+        (
+            mesh_.time().globalPath()/functionObject::outputPrefix/"flow"
+           /mesh_.time().timeName(mesh_.time().startTime().value())
+        );
+        mkDir(folder);
+        table_.reset(new OFstream(folder/"flow.dat"));
+        table_->precision(10);
+        flowColumns.explain(table_());
+        table_() << "# Time";
+        for (const keyTable::entry& column : flowColumns.entries())
+        {
+            table_() << tab << column.name;
+        }
+        table_() << nl;
+    }
+    table_()
+        << mesh_.time().value() << tab << G_ << tab
+        << (G_ != 0 ? inflow(G_ < 0) : 0) << tab << last_.outletT << tab
+        << drop_ << tab << last_.heat[toBed] + last_.heat[gasToWall] << endl;
+}
+
+
+Foam::scalar Foam::granularFlows::through::difference() const
+{
+    const scalarList& all = grains_.record().flow;
+    const scalar gas =
+        all[entered] - all[left] - all[toBed] - all[held] - all[gasToWall];
+    const scalar wall =
+        all[gasToWall] + all[bedToWall] - all[lost] - all[heldByWall];
+    // Where nothing is exchanged the difference is rounding of what flows
+    return
+        (mag(gas) + mag(wall))
+       /max(all[passed], max(runRecord::roundedHeat*mag(all[entered]), VSMALL));
+}
+
+
+Foam::string Foam::granularFlows::through::exchangeSentence() const
+{
+    if (G_ == 0 || constantExchange_)
+    {
+        return string();
+    }
+    // Share of the exchange in what spreads a front
+    scalar share = 0;
+    const scalarField& V = mesh_.V();
+    const granularState::conductivityColumns& K = grains_.conductivityOfCells();
+    const auto part = [](const scalarField& column, const label celli)
+    {
+        return column.empty() ? 0 : column[celli];
+    };
+    forAll(V, celli)
+    {
+        const symmTensor k
+        (
+            K.xx[celli], part(K.xy, celli), part(K.xz, celli), K.yy[celli],
+            part(K.yz, celli), part(K.zz, celli)
+        );
+        const scalar carried = Gc(gasT_[celli]);
+        const scalar spread = sqr(carried)/exchange(celli);
+        const scalar others =
+            along_*carried*diameter(celli) + (axis_ & (k & axis_));
+        share += V[celli]*spread/(spread + others);
+    }
+    share =
+        returnReduce(share, sumOp<scalar>())
+       /returnReduce(sum(V), sumOp<scalar>());
+    const scalar e = bedCorrelations::exchangeError;
+    const scalar width = std::sqrt(share/(1 - e) + 1 - share) - 1;
+    OStringStream os;
+    os.precision(3);
+    os  << "Flow: the heat exchange (" << exchangeLaw_.name
+        << ") has an error of " << 100*e
+        << " %, which changes the temperature at the outlet by at most "
+        << frontSlope*width*(hottest_ - coldest_) << " K.";
+    return os.str();
+}
+
+
+Foam::string Foam::granularFlows::through::rangeSentence() const
+{
+    OStringStream os;
+    os.precision(3);
+    const auto many = [&os](const bool doubt)
+    {
+        os  << (os.str().empty() ? "" : " ") << (doubt ? "Doubt: " : "");
+        return doubt;
+    };
+    const auto outside = [&](const label cells, const string& what)
+    {
+        if (cells > 0 && many(true))
+        {
+            os  << "Flow: up to " << cells << " cells were out of the range of "
+                << what.c_str() << ".";
+        }
+    };
+    outside(outsideDrag_, "the drag " + string(drag_.name));
+    outside(outsideExchange_, "the heat exchange " + string(exchangeLaw_.name));
+    outside(outsideGas_, "the properties of " + string(gas_.name()));
+    if (largestMach_ > mostMach && many(true))
+    {
+        os  << "Flow: the gas reaches " << largestMach_
+            << " of the speed of sound, allowed: " << mostMach << ".";
+    }
+    if (largestShare_ > mostShare && many(true))
+    {
+        os  << "Flow: the pressure drop reaches " << largestShare_
+            << " of the pressure, whose change is left out in the heat, allowed: "
+            << mostShare << ".";
+    }
+    if (largestBiot_ > mostBiot && many(true))
+    {
+        os  << "Flow: the Biot number h r/k_s of the grains reaches "
+            << largestBiot_ << ", allowed: " << mostBiot
+            << "; the temperature inside of the grains is not resolved.";
+    }
+    if (unsettled_ && many(true))
+    {
+        os  << "Flow: " << unsettled_ << " of " << solutions_
+            << " solutions did not converge in "
+            << twoFieldMatrix::mostIterations << " iterations.";
+    }
+    return os.str();
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+Foam::List<Foam::string> Foam::granularFlows::through::sentences() const
+{
+    const scalarList& all = grains_.record().flow;
+    OStringStream flow, heat;
+    flow.precision(4);
+    flow<< "Flow: " << gas_.name() << ", Re " << min(leastRe_, mostRe_)
+        << " to " << mostRe_;
+    if (G_ != 0)
+    {
+        const scalar e = bedCorrelations::dragError;
+        flow<< "; at the end the gas leaves with " << last_.outletT
+            << " K, and the pressure drop is " << drop_ << " Pa, "
+            << pressureDrop(1 - e) << " to " << pressureDrop(1 + e)
+            << " Pa with the error of the drag (" << drag_.name << ", "
+            << 100*e << " %)";
+    }
+    flow<< ". " << temperatures().c_str();
+    heat.precision(4);
+    heat<< (difference() > mostDifference ? "Doubt: " : "")
+        << "Heat of the flow: the gas lost " << all[entered] - all[left]
+        << " J; " << all[toBed] << " J went to the grains, " << all[held]
+        << " J stayed in the pores, " << all[gasToWall]
+        << " J went to the vessel";
+    if (!walls_->empty())
+    {
+        scalar least, most;
+        walls_->extremes(least, most);
+        heat<< ", which got " << all[bedToWall] << " J from the grains, lost "
+            << all[lost] << " J to the outside and holds " << all[heldByWall]
+            << " J more, at " << least << " to " << most << " K";
+    }
+    heat<< ". The difference is " << difference() << " of the heat that passed. "
+        << scalar(solutions_)/max(stages_, label(1)) << " solutions a stage, "
+        << scalar(iterations_)/max(solutions_, label(1))
+        << " iterations a solution.";
+    List<string> result({flow.str(), exchangeSentence(), rangeSentence(), heat.str()});
+    return result;
+}
+
+
+Foam::string Foam::granularFlows::through::summary() const
+{
+    const scalarList& all = grains_.record().flow;
+    const scalar e = bedCorrelations::dragError;
+    OStringStream os;
+    os.precision(10);
+    os  << "{\"gas\": " << string(gas_.name())
+        << ", \"temperatures\": " << (single_ ? 1 : 2)
+        << ", \"transfer_units\": " << xi_
+        << ", \"mass_flux\": " << G_
+        << ", \"outlet_temperature\": " << last_.outletT
+        << ", \"pressure_drop\": " << drop_
+        << ", \"pressure_drop_low\": " << pressureDrop(1 - e)
+        << ", \"pressure_drop_high\": " << pressureDrop(1 + e)
+        << ", \"largest_pressure_drop\": " << largestDrop_
+        << ", \"entered\": " << all[entered] << ", \"left\": " << all[left]
+        << ", \"to_grains\": " << all[toBed] << ", \"in_pores\": " << all[held]
+        << ", \"vessel\": {\"from_gas\": " << all[gasToWall]
+        << ", \"from_grains\": " << all[bedToWall] << ", \"lost\": "
+        << all[lost] << ", \"stored\": " << all[heldByWall]
+        << "}, \"relative_difference\": " << difference()
+        << ", \"cells_outside_drag\": " << outsideDrag_
+        << ", \"cells_outside_exchange\": " << outsideExchange_
+        << ", \"cells_outside_gas\": " << outsideGas_
+        << ", \"solutions_per_stage\": "
+        << scalar(solutions_)/max(stages_, label(1))
+        << ", \"iterations_per_solution\": "
+        << scalar(iterations_)/max(solutions_, label(1)) << "}";
+    return os.str();
+}
+
+
+// ************************************************************************* //

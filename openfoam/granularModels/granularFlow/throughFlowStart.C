@@ -1,0 +1,553 @@
+/*---------------------------------------------------------------------------*\
+  =========                 |
+  \\      /  F ield         | MSDD: multiscale data-driven heat conduction
+   \\    /   O peration     |       in granular media
+    \\  /    A nd           | for OpenFOAM v1912
+     \\/     M anipulation  |
+-------------------------------------------------------------------------------
+License
+    SPDX-License-Identifier: GPL-3.0-or-later
+
+    This program is free software: you can redistribute it and/or modify it
+    under the terms of the GNU General Public License as published by the Free
+    Software Foundation, either version 3 of the License, or (at your option)
+    any later version. It comes without any warranty: see the file LICENSE.
+\*---------------------------------------------------------------------------*/
+
+#include "throughFlow.H"
+#include "OFstream.H"
+#include "extrapolatedCalculatedFvPatchFields.H"
+#include "zeroGradientFvPatchFields.H"
+
+// * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
+
+namespace Foam
+{
+
+//- Largest errors of one temperature times sqrt(xi), of gas and grains, in
+//- percent of a sudden change of the inlet: against Schumann's solution for xi
+//- from 50 to 200
+static const scalar singleGas = 18, singleBed = 13.5;
+
+//- Porosities that a bed of spheres has
+static const scalar densest = 0.2, loosest = 0.7;
+
+//- Times at which functions of time are looked at
+static const label looks = 1000;
+
+const keyTable granularFlows::through::keys
+(
+    "throughCoeffs",
+    {
+        {
+            "inlet",
+            "where the gas enters while the mass flow is positive, see below",
+            "-", "a dictionary", "required"
+        },
+        {
+            "outlet", "where it leaves, see below", "-", "a dictionary",
+            "required"
+        },
+        {
+            "massFlow",
+            "mass flow through the cross-section of the mesh, a number or a"
+            " function of time; negative from outlet to inlet. A wedge of 5"
+            " degrees has 1/72 of the mass flow of its cylinder", "kg/s",
+            "a number or a function", "required, or `massFlux`"
+        },
+        {
+            "massFlux",
+            "the same over the area of the cross-section, voids and grains"
+            " together", "kg/(m2 s)", "a number or a function",
+            "required, or `massFlow`"
+        },
+        {
+            "gas",
+            "the gas, or `constant`: a gas or liquid of the constant properties"
+            " in `constantGas`. With surrogate type `spheres` the gas of"
+            " `spheresCoeffs` flows, and this key is refused", "-",
+            "air, nitrogen, helium, argon, constant", "air"
+        },
+        {
+            "gasPressure",
+            "pressure where the gas leaves; with surrogate type `spheres` that"
+            " of `spheresCoeffs`", "Pa", "1e-3 to 1e9", "1.013e5"
+        },
+        {
+            "constantGas", "properties of `gas constant`", "-", "a dictionary",
+            "required with it"
+        },
+        {
+            "temperatures",
+            "`two`: gas and grains have their own temperatures. `one`: they have"
+            " the same, and the bed conducts better along the flow, which is"
+            " exact for long beds. `auto`: one, if its error is below"
+            " `accuracy`", "-", "one, two, auto", "auto"
+        },
+        {
+            "accuracy",
+            "with `temperatures auto`: error of the temperature, in percent of a"
+            " sudden change at the inlet", "%", "1e-6 to 100", "1"
+        },
+        {
+            "drag", "correlation of the pressure drop", "-",
+            "Ergun, KTA, ErdimAkgirayDemir", "KTA"
+        },
+        {
+            "exchange",
+            "correlation of the heat exchange between gas and grains; the inner"
+            " resistance of the grains is added. `constant`: as in"
+            " `exchangeCoefficient`", "-",
+            "WakaoKaguei, Gunn, KTA, Gnielinski, constant", "WakaoKaguei"
+        },
+        {
+            "exchangeCoefficient",
+            "of `exchange constant`: heat exchange per volume of the bed and"
+            " kelvin, all resistances included", "W/(m3 K)", "1e-9 to 1e15",
+            "required with it"
+        },
+        {
+            "dragFactor", "factor of the drag, for sensitivity studies", "-",
+            "0.1 to 10", "1"
+        },
+        {
+            "exchangeFactor",
+            "factor of the exchange outside of the grains, for sensitivity"
+            " studies", "-", "0.1 to 10", "1"
+        },
+        {
+            "dispersionAlong",
+            "thermal dispersion of the gas along the flow, over G c d", "-",
+            "0 to 100", "0.5"
+        },
+        {
+            "dispersionAcross", "the same across the flow", "-", "0 to 100",
+            "0.1"
+        },
+        {
+            "walls",
+            "walls of the vessel that take up heat from gas and grains, by the"
+            " names of their patches, see below", "-", "a dictionary", "empty"
+        }
+    }
+);
+
+const keyTable granularFlows::through::endKeys
+(
+    "inlet and outlet of throughCoeffs",
+    {
+        {
+            "patch", "the patch of the mesh", "-", "a patch", "required"
+        },
+        {
+            "temperature",
+            "temperature of gas that enters here, a number or a function of"
+            " time. Required at the outlet only if the mass flow turns round",
+            "K", "> 0", "required where gas enters"
+        }
+    }
+);
+
+} // End namespace Foam
+
+
+// * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+
+static IOobject inMemory(const word& name, const fvMesh& mesh)
+{
+    return IOobject
+    (
+        name, mesh.time().timeName(), mesh, IOobject::NO_READ,
+        IOobject::NO_WRITE, false
+    );
+}
+
+
+//- Work space whose values are exchanged between processes
+static volScalarField column(const word& name, const fvMesh& mesh)
+{
+    return volScalarField
+    (
+        inMemory(name, mesh), mesh, dimensionedScalar(dimless, Zero),
+        extrapolatedCalculatedFvPatchScalarField::typeName
+    );
+}
+
+} // End namespace Foam
+
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::granularFlows::through::through
+(
+    const granularProperties& properties,
+    granularState& grains,
+    volScalarField& T
+)
+:
+    properties_(properties),
+    grains_(grains),
+    T_(T),
+    mesh_(T.mesh()),
+    dict_((keys.check(properties.subDict("throughCoeffs")), properties.subDict("throughCoeffs"))),
+    gas_(properties, keys, dict_),
+    drag_(bedCorrelations::drag(keys.choice(dict_, "drag"))),
+    constantExchange_(keys.choice(dict_, "exchange") == "constant"),
+    exchangeLaw_
+    (
+        bedCorrelations::exchange
+        (
+            constantExchange_ ? "WakaoKaguei" : keys.choice(dict_, "exchange")
+        )
+    ),
+    linear_
+    (
+        gas_.isConstant()
+     && (constantExchange_ || properties.conductivityFunction().isNumber())
+     && properties.thermalExpansion().value() == 0
+    ),
+    coupled_(false),
+    exchangeCoefficient_
+    (
+        constantExchange_ ? keys.number(dict_, "exchangeCoefficient") : 0
+    ),
+    dragFactor_(keys.number(dict_, "dragFactor")),
+    exchangeFactor_(keys.number(dict_, "exchangeFactor")),
+    along_(keys.number(dict_, "dispersionAlong")),
+    across_(keys.number(dict_, "dispersionAcross")),
+    inlet_(readEnd("inlet")),
+    outlet_(readEnd("outlet")),
+    axis_(Zero),
+    area_(0),
+    length_(0),
+    width_(GREAT),
+    perFlow_(1),
+    flows_(false),
+    single_(false),
+    xi_(0),
+    unbalanced_(T.size(), Zero),
+    gasT_
+    (
+        IOobject
+        (
+            "gasTemperature", mesh_.time().timeName(), mesh_,
+            IOobject::READ_IF_PRESENT, IOobject::AUTO_WRITE
+        ),
+        mesh_,
+        dimensionedScalar(T.dimensions(), Zero),
+        zeroGradientFvPatchScalarField::typeName
+    ),
+    exchange_(column("exchange", mesh_)),
+    storage_(column("storage", mesh_)),
+    start_(column("start", mesh_)),
+    bedThen_(column("bedThen", mesh_)),
+    startThen_(column("startThen", mesh_)),
+    bedSlope_(column("bedSlope", mesh_)),
+    startSlope_(column("startSlope", mesh_)),
+    diffusionAlong_(column("diffusionAlong", mesh_)),
+    diffusionAcross_(column("diffusionAcross", mesh_)),
+    pores_(1 - grains.bulkDensity().primitiveField()/properties.density().value()),
+    before_(T.size(), Zero),
+    stage_(T.size(), Zero),
+    oldT_(T.size(), Zero),
+    matrix_(T),
+    G_(0),
+    lastTau_(0),
+    solutions_(0),
+    stages_(0),
+    iterations_(0),
+    unsettled_(0),
+    outsideDrag_(0),
+    outsideExchange_(0),
+    outsideGas_(0),
+    drop_(0),
+    largestDrop_(0),
+    largestShare_(0),
+    leastRe_(GREAT),
+    mostRe_(0),
+    coldest_(GREAT),
+    hottest_(0),
+    largestMach_(0),
+    largestBiot_(0),
+    longestCell_(0)
+{
+    const word law(properties.surrogateDict().get<word>("type"));
+    if (law != "spheres" && law != "constant")
+    {
+        FatalIOErrorInFunction(properties)
+            << "Entry 'flow' is through with surrogate type " << law
+            << ", allowed: the types spheres and constant. No correlations of"
+            << " drag and heat exchange are known for discs"
+            << exit(FatalIOError);
+    }
+    const scalar least = gMin(grains.porosity());
+    const scalar most = gMax(grains.porosity());
+    if (least < densest || most > loosest)
+    {
+        FatalErrorInFunction
+            << "Field porosity is from " << least << " to " << most
+            << ", allowed with a flow: " << densest << " to " << loosest
+            << exit(FatalError);
+    }
+    for (const fvPatch& patch : mesh_.boundary())
+    {
+        coupled_ = coupled_ || patch.coupled();
+    }
+    reduce(coupled_, orOp<bool>());
+    findAxis();
+    findFlow();
+    walls_.reset
+    (
+        new vesselWalls(properties, grains, T, dict_.subOrEmptyDict("walls"))
+    );
+    if (gMax(gasT_.primitiveField()) <= 0)
+    {
+        // There was no such file
+        gasT_.primitiveFieldRef() = T.primitiveField();
+        gasT_.correctBoundaryConditions();
+    }
+    scalarList& all = grains.record().flow;
+    all.resize(totals, 0);
+    if (flows_)
+    {
+        chooseTemperatures();
+    }
+    else
+    {
+        gasT_.writeOpt() = IOobject::NO_WRITE;
+    }
+}
+
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+Foam::granularFlows::through::port
+Foam::granularFlows::through::readEnd(const word& key) const
+{
+    const dictionary& dict = dict_.subDict(key);
+    endKeys.check(dict);
+    port result;
+    result.name = dict.get<word>("patch");
+    result.patch = mesh_.boundaryMesh().findPatchID(result.name);
+    if (result.patch < 0)
+    {
+        FatalIOErrorInFunction(dict)
+            << "Entry 'patch' of '" << key << "' is " << result.name
+            << ", allowed: "
+            << granularProperties::listed(mesh_.boundaryMesh().names()).c_str()
+            << exit(FatalIOError);
+    }
+    if (dict.found("temperature"))
+    {
+        result.temperature = Function1<scalar>::New("temperature", dict);
+    }
+    return result;
+}
+
+
+void Foam::granularFlows::through::findAxis()
+{
+    const auto sumOf = [this](const label patchi)
+    {
+        return returnReduce
+        (
+            sum(mesh_.Sf().boundaryField()[patchi]), sumOp<vector>()
+        );
+    };
+    const vector S(sumOf(inlet_.patch));
+    area_ = mag(S);
+    axis_ = -S/max(area_, VSMALL);
+    const scalar opposite = axis_ & sumOf(outlet_.patch);
+    if (inlet_.patch == outlet_.patch || mag(opposite/area_ - 1) > mostTilt)
+    {
+        FatalIOErrorInFunction(dict_)
+            << "The outlet " << outlet_.name << " has " << opposite
+            << " m2 across the flow and the inlet " << inlet_.name << " has "
+            << area_ << " m2, allowed with flow through: the same, on opposite"
+            << " ends of the bed" << exit(FatalIOError);
+    }
+    scalar walls = 0;
+    forAll(mesh_.boundary(), patchi)
+    {
+        const fvPatch& patch = mesh_.boundary()[patchi];
+        if
+        (
+            patch.coupled() || patchi == inlet_.patch || patchi == outlet_.patch
+         || patch.type() == "empty"
+        )
+        {
+            continue;
+        }
+        const vectorField& Sf = mesh_.Sf().boundaryField()[patchi];
+        scalar tilt = 0, area = 0;
+        forAll(Sf, facei)
+        {
+            tilt = max(tilt, mag(Sf[facei] & axis_)/mag(Sf[facei]));
+            area += mag(Sf[facei]);
+        }
+        reduce(tilt, maxOp<scalar>());
+        if (tilt > mostTilt)
+        {
+            FatalErrorInFunction
+                << "Patch " << patch.name() << " is turned by a sine of " << tilt
+                << " from the axis " << axis_ << " of the flow from "
+                << inlet_.name << " to " << outlet_.name
+                << ", allowed with flow through: " << mostTilt
+                << ". The cross-section must be the same everywhere, and the"
+                << " points of the mesh written with at least 8 digits"
+                << " (writePrecision in system/controlDict)"
+                << exit(FatalError);
+        }
+        walls +=
+            polyPatch::constraintType(patch.type())
+          ? 0 : returnReduce(area, sumOp<scalar>());
+    }
+    const scalarField& V = mesh_.V();
+    const scalar volume = gSum(V);
+    length_ = volume/area_;
+    width_ = walls > 0 ? 4*volume/walls : GREAT;
+
+    unitFlux_.resize(mesh_.nInternalFaces());
+    forAll(unitFlux_, facei)
+    {
+        unitFlux_[facei] = unitFlux(mesh_.Sf()[facei]);
+    }
+    scalarField crossed(V.size(), Zero);
+    forAll(unitFlux_, facei)
+    {
+        const label P = mesh_.owner()[facei], N = mesh_.neighbour()[facei];
+        unbalanced_[P] += unitFlux_[facei];
+        unbalanced_[N] -= unitFlux_[facei];
+        crossed[P] += 0.5*mag(unitFlux_[facei]);
+        crossed[N] += 0.5*mag(unitFlux_[facei]);
+    }
+    forAll(mesh_.boundary(), patchi)
+    {
+        if
+        (
+            mesh_.boundary()[patchi].coupled()
+         || patchi == inlet_.patch || patchi == outlet_.patch
+        )
+        {
+            const labelUList& cells = mesh_.boundary()[patchi].faceCells();
+            const vectorField& Sf = mesh_.Sf().boundaryField()[patchi];
+            forAll(cells, facei)
+            {
+                unbalanced_[cells[facei]] += unitFlux(Sf[facei]);
+                crossed[cells[facei]] += 0.5*mag(unitFlux(Sf[facei]));
+            }
+        }
+    }
+    forAll(V, celli)
+    {
+        longestCell_ = max(longestCell_, V[celli]/max(crossed[celli], VSMALL));
+    }
+    reduce(longestCell_, maxOp<scalar>());
+}
+
+
+void Foam::granularFlows::through::findFlow()
+{
+    const bool whole = dict_.found("massFlow");
+    if (whole == dict_.found("massFlux"))
+    {
+        FatalIOErrorInFunction(dict_)
+            << "Entries 'massFlow' and 'massFlux' are "
+            << (whole ? "both given" : "missing") << ", allowed: one of them"
+            << exit(FatalIOError);
+    }
+    flow_ = Function1<scalar>::New(whole ? "massFlow" : "massFlux", dict_);
+    perFlow_ = whole ? 1/area_ : 1;
+
+    // Each temperature while gas enters with it
+    const scalar begin = grains_.record().startTime;
+    const scalar end = mesh_.time().endTime().value();
+    for (label look = 0; look <= looks; ++look)
+    {
+        const scalar t = begin + look*(min(end, GREAT) - begin)/looks;
+        const scalar flow = flow_->value(t);
+        flows_ = flows_ || flow != 0;
+        if (flow == 0)
+        {
+            continue;
+        }
+        const auto& from = flow > 0 ? inlet_ : outlet_;
+        if (!from.temperature.valid())
+        {
+            FatalIOErrorInFunction(dict_)
+                << "Entry 'temperature' of " << (flow > 0 ? "'inlet'" : "'outlet'")
+                << " is missing, allowed: the temperature of the gas that"
+                << " enters there, because the mass flow is " << flow
+                << " at time " << t << exit(FatalIOError);
+        }
+        const scalar T = from.temperature->value(t);
+        if (!(T > 0))
+        {
+            FatalIOErrorInFunction(dict_)
+                << "Entry 'temperature' of " << (flow > 0 ? "'inlet'" : "'outlet'")
+                << " is " << T << " at time " << t << ", allowed: > 0"
+                << exit(FatalIOError);
+        }
+    }
+}
+
+
+void Foam::granularFlows::through::chooseTemperatures()
+{
+    const word choice(keys.choice(dict_, "temperatures"));
+    const scalar accuracy = keys.number(dict_, "accuracy");
+    const scalar begin = grains_.record().startTime;
+    const scalar end = mesh_.time().endTime().value();
+    scalar flux = 0;
+    for (label look = 0; look <= looks; ++look)
+    {
+        const scalar t = begin + look*(min(end, GREAT) - begin)/looks;
+        flux = max(flux, mag(perFlow_*flow_->value(t)));
+    }
+    const scalar T =
+        (inlet_.temperature.valid() ? inlet_ : outlet_).temperature->value(begin);
+    const scalar d = 2*properties_.meanRadius().value();
+    const scalar mu = gas_.viscosity(T), k = gas_.conductivity(T);
+    const scalar c = gas_.capacity(T);
+    const scalar porosity =
+        gSum(pores_*mesh_.V())/gSum(mesh_.V().field());
+    const scalar H =
+        coefficient
+        (
+            {flux*d/mu, porosity, mu*c/k}, k, d,
+            properties_.conductivityFunction().value(T)
+        );
+    xi_ = H*length_/(flux*c);
+    scalar& kind = grains_.record().flow[chosen];
+    if (choice != "auto")
+    {
+        kind = choice == "one" ? 1 : 2;
+    }
+    else if (kind == 0)
+    {
+        kind = singleGas/std::sqrt(xi_) <= accuracy ? 1 : 2;
+    }
+    single_ = kind == 1;
+    Info<< "Flow of " << gas_.name() << " along " << axis_ << ", " << length_
+        << " m through " << area_ << " m2, at most " << flux
+        << " kg/(m2 s)" << nl << temperatures().c_str() << nl << endl;
+}
+
+
+Foam::string Foam::granularFlows::through::temperatures() const
+{
+    OStringStream os;
+    os.precision(3);
+    os  << (single_ ? "One temperature" : "Two temperatures")
+        << " for gas and grains: in a bed of " << xi_
+        << " units of transfer one temperature has an error of "
+        << singleGas/std::sqrt(xi_) << " % of a sudden change at the inlet in"
+        << " the gas and " << singleBed/std::sqrt(xi_) << " % in the grains.";
+    return os.str();
+}
+
+
+// ************************************************************************* //
