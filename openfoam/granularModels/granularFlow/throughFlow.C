@@ -27,7 +27,7 @@ namespace granularFlows
     defineTypeNameAndDebug(through, 0);
     addToRunTimeSelectionTable(granularFlow, through, dictionary);
 
-    //- Change of the temperatures, over the largest, at which properties that
+    //- Error of the temperatures, over the largest, at which properties that
     //- depend on them have settled
     static const scalar settled = 1e-8;
 
@@ -267,6 +267,7 @@ void Foam::granularFlows::through::secondStage(const scalar share)
 void Foam::granularFlows::through::beginStage()
 {
     ++stages_;
+    lastChange_ = 0;
     G_ = perFlow_*flow_->value(mesh_.time().value());
     bedThen_.primitiveFieldRef() = T_;
     forAll(stage_, celli)
@@ -335,10 +336,13 @@ bool Foam::granularFlows::through::solve
             << matrix_.residual() << ", No Iterations "
             << matrix_.iterations() << endl;
     }
-    return
-        linear_
-     || returnReduce(change, maxOp<scalar>())
-     <= settled*returnReduce(size, maxOp<scalar>());
+    reduce(change, maxOp<scalar>());
+    reduce(size, maxOp<scalar>());
+    // What further solutions would change, by the ratio of the last two
+    const scalar ratio = lastChange_ > 0 ? change/lastChange_ : 1;
+    lastChange_ = change;
+    const scalar rest = ratio < 0.5 ? change*ratio/(1 - ratio) : change;
+    return linear_ || rest <= settled*size;
 }
 
 

@@ -42,9 +42,14 @@ static scalar limited
     const scalar share
 )
 {
+    // The front is not in this cell yet
+    if (downstream == 0)
+    {
+        return 1;
+    }
     if (upstream*downstream <= 0)
     {
-        return upstream == downstream;
+        return 0;
     }
     const scalar r = upstream/downstream;
     return min(min(scalar(2), 2*r), share + (1 - share)*r);
@@ -110,6 +115,25 @@ void Foam::granularFlows::through::findSlopes
             }
         }
     }
+    // In the first cells the gas that enters is what lies upstream
+    atInlet_.primitiveFieldRef() = 0;
+    if (G_ != 0)
+    {
+        const label patchi = (G_ > 0 ? inlet_ : outlet_).patch;
+        const scalar T = inflow(G_ < 0);
+        const vectorField& S = mesh_.Sf().boundaryField()[patchi];
+        const vectorField& Cf = mesh_.Cf().boundaryField()[patchi];
+        forAll(S, facei)
+        {
+            const label P = mesh_.boundary()[patchi].faceCells()[facei];
+            atInlet_[P] = 1;
+            add
+            (
+                P, mag(G_*(axis_ & S[facei])), field[P] - T,
+                mag((C[P] - Cf[facei]) & axis_)
+            );
+        }
+    }
     forAll(slope, celli)
     {
         slope[celli] = flux[celli] > 0 ? sum[celli]/flux[celli] : none;
@@ -117,6 +141,7 @@ void Foam::granularFlows::through::findSlopes
     if (coupled_)
     {
         slope.correctBoundaryConditions();
+        atInlet_.correctBoundaryConditions();
     }
 }
 
@@ -128,7 +153,7 @@ Foam::granularFlows::through::valuesOf(const label P) const
     {
         exchange_[P], storage_[P], start_[P], gasT_[P], T_[P],
         bedThen_[P], startThen_[P], bedSlope_[P], startSlope_[P],
-        diffusionAlong_[P], diffusionAcross_[P]
+        diffusionAlong_[P], diffusionAcross_[P], atInlet_[P]
     };
 }
 
@@ -147,13 +172,15 @@ Foam::granularFlows::through::valuesBeyond(const label patchi) const
     const scalarField startSlope(beyond(startSlope_));
     const scalarField along(beyond(diffusionAlong_));
     const scalarField across(beyond(diffusionAcross_));
+    const scalarField atInlet(beyond(atInlet_));
     List<cellValues> result(gas.size());
     forAll(result, i)
     {
         result[i] =
         {
             exchange[i], storage[i], start[i], gas[i], bed[i], bedThen[i],
-            startThen[i], bedSlope[i], startSlope[i], along[i], across[i]
+            startThen[i], bedSlope[i], startSlope[i], along[i], across[i],
+            atInlet[i]
         };
     }
     return result;
@@ -201,7 +228,9 @@ Foam::granularFlows::through::reconstruct
     const auto change = [&](const scalar slope, const scalar rise)
     {
         const scalar psi =
-            slope == none ? 1 : limited(slope*distance, rise, share);
+            slope == none ? 1
+          : U.atInlet > 0 ? min(scalar(1), limited(slope*distance, rise, 1))
+          : limited(slope*distance, rise, share);
         return kappa*min(scalar(2), psi*length/distance);
     };
     const scalar ofBed = bedShare*change(U.bedSlope, D->bedThen - U.bedThen);
