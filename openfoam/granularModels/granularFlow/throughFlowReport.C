@@ -264,6 +264,27 @@ Foam::string Foam::granularFlows::through::exchangeSentence() const
 }
 
 
+Foam::scalar Foam::granularFlows::through::frontWidth() const
+{
+    if (G_ == 0)
+    {
+        return GREAT;
+    }
+    scalar spread = 0, stored = 0;
+    const scalarField& V = mesh_.V();
+    forAll(V, celli)
+    {
+        const scalar c = Gc(gasT_[celli]);
+        spread += V[celli]*(sqr(c)/exchange(celli) + along_*c*diameter(celli));
+        stored += V[celli]*grains_.bulkDensity()[celli];
+    }
+    reduce(spread, sumOp<scalar>());
+    reduce(stored, sumOp<scalar>());
+    const scalar t = mesh_.time().value() - grains_.record().startTime;
+    return std::sqrt(2*spread*t/(stored*properties_.heatCapacity().value()));
+}
+
+
 Foam::string Foam::granularFlows::through::rangeSentence() const
 {
     OStringStream os;
@@ -300,6 +321,13 @@ Foam::string Foam::granularFlows::through::rangeSentence() const
         os  << "Flow: the Biot number h r/k_s of the grains reaches "
             << largestBiot_ << ", allowed: " << mostBiot
             << "; the temperature inside of the grains is not resolved.";
+    }
+    const scalar width = frontWidth();
+    if (longestCell_ > width && many(true))
+    {
+        os  << "Flow: cells are up to " << longestCell_
+            << " m long, and a front is " << width
+            << " m wide at the end; cells of this size would resolve it.";
     }
     if (unsettled_ && many(true))
     {
