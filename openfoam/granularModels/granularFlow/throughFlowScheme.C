@@ -2,7 +2,7 @@
   =========                 |
   \\      /  F ield         | MSDD: multiscale data-driven heat conduction
    \\    /   O peration     |       in granular media
-    \\  /    A nd           | for OpenFOAM v1912
+    \\  /    A nd           | for OpenFOAM
      \\/     M anipulation  |
 -------------------------------------------------------------------------------
 License
