@@ -26,10 +26,6 @@ License
 namespace Foam
 {
 
-//- Bounds of what the flow is valid for: speed over that of sound, pressure drop
-//- over the pressure, Biot number of the grains' inside over 5
-static const scalar mostMach = 0.3, mostShare = 0.3, mostBiot = 5;
-
 //- A difference of the balances, over the heat that passed, that is neither
 //- rounding nor the tolerance of the linear solver
 static const scalar mostDifference = 1e-6;
@@ -83,100 +79,6 @@ Foam::scalar Foam::granularFlows::through::dragOf(const label celli) const
 }
 
 
-void Foam::granularFlows::through::observe()
-{
-    label outsideDrag = 0, outsideExchange = 0, outsideGas = 0;
-    scalar excess = -GREAT;
-    drop_ = 0;
-    if (G_ != 0)
-    {
-        const scalar up = -(properties_.gravity() & axis_)*sign(G_);
-        forAll(gasT_, celli)
-        {
-            const scalar T = gasT_[celli];
-            const bedCorrelations::state s(state(celli));
-            const scalar d = diameter(celli), ratio = width_/d;
-            outsideDrag += !drag_.isValid(s, ratio);
-            outsideExchange +=
-                !constantExchange_ && !exchangeLaw_.isValid(s, ratio);
-            outsideGas += !gas_.isKnown(T);
-            leastRe_ = min(leastRe_, s.Re);
-            mostRe_ = max(mostRe_, s.Re);
-            coldest_ = min(coldest_, T);
-            hottest_ = max(hottest_, T);
-            const scalar rho = gas_.density(T, gas_.pressure());
-            if (gas_.compressible())
-            {
-                const scalar c = gas_.capacity(T), R = gas_.gasConstant();
-                largestMach_ = max
-                (
-                    largestMach_,
-                    mag(G_)/(rho*s.porosity*std::sqrt(c/(c - R)*R*T))
-                );
-            }
-            if (!constantExchange_)
-            {
-                largestBiot_ = max
-                (
-                    largestBiot_,
-                    exchangeLaw_.value(s)*gas_.conductivity(T)
-                   /(2*properties_.conductivityFunction().value(T_[celli]))
-                );
-            }
-            if (up > 0)
-            {
-                excess = max
-                (
-                    excess,
-                    dragOf(celli)/rho
-                   /((1 - s.porosity)*(properties_.density().value() - rho)*up)
-                );
-            }
-        }
-        drop_ = pressureDrop(1);
-        largestDrop_ = max(largestDrop_, drop_);
-        largestShare_ = max(largestShare_, drop_/gas_.pressure());
-    }
-    for (label* each : {&outsideDrag, &outsideExchange, &outsideGas})
-    {
-        reduce(*each, sumOp<label>());
-    }
-    reduce(excess, maxOp<scalar>());
-    if (excess > 1)
-    {
-        FatalErrorInFunction
-            << "The bed would lift at time " << mesh_.time().timeName()
-            << ": the gas flows upwards with "
-            << mag(G_) << " kg/(m2 s), and its pressure gradient is up to "
-            << excess << " times the weight of the grains, allowed: below 1"
-            << exit(FatalError);
-    }
-    const auto warn = [&](const label now, label& before, const string& what)
-    {
-        if (now > 0 && before == 0)
-        {
-            Info<< "Warning: from time " << mesh_.time().timeName() << " on "
-                << now << " cells are out of the range of " << what.c_str()
-                << nl;
-        }
-        before = max(before, now);
-    };
-    warn(outsideDrag, outsideDrag_, "the drag " + string(drag_.name));
-    warn
-    (
-        outsideExchange, outsideExchange_,
-        "the heat exchange " + string(exchangeLaw_.name)
-    );
-    warn(outsideGas, outsideGas_, "the properties of " + string(gas_.name()));
-    if (solverPerformance::debug)
-    {
-        Info<< "Flow: G " << G_ << " kg/(m2 s), outlet " << last_.outletT
-            << " K, pressure drop " << drop_ << " Pa" << nl;
-    }
-    writeLine();
-}
-
-
 void Foam::granularFlows::through::writeLine()
 {
     if (!Pstream::master())
@@ -222,6 +124,24 @@ Foam::scalar Foam::granularFlows::through::difference() const
 }
 
 
+Foam::symmTensor Foam::granularFlows::through::conductivity
+(
+    const label celli
+) const
+{
+    const granularState::conductivityColumns& K = grains_.conductivityOfCells();
+    const auto part = [celli](const scalarField& column)
+    {
+        return column.empty() ? 0 : column[celli];
+    };
+    return symmTensor
+    (
+        K.xx[celli], part(K.xy), part(K.xz), K.yy[celli], part(K.yz),
+        part(K.zz)
+    );
+}
+
+
 Foam::string Foam::granularFlows::through::exchangeSentence() const
 {
     if (G_ == 0 || constantExchange_)
@@ -231,22 +151,12 @@ Foam::string Foam::granularFlows::through::exchangeSentence() const
     // Share of the exchange in what spreads a front
     scalar share = 0;
     const scalarField& V = mesh_.V();
-    const granularState::conductivityColumns& K = grains_.conductivityOfCells();
-    const auto part = [](const scalarField& column, const label celli)
-    {
-        return column.empty() ? 0 : column[celli];
-    };
     forAll(V, celli)
     {
-        const symmTensor k
-        (
-            K.xx[celli], part(K.xy, celli), part(K.xz, celli), K.yy[celli],
-            part(K.yz, celli), part(K.zz, celli)
-        );
         const scalar carried = Gc(gasT_[celli]);
         const scalar spread = sqr(carried)/exchange(celli);
         const scalar others =
-            along_*carried*diameter(celli) + (axis_ & (k & axis_));
+            along_*carried*diameter(celli) + (axis_ & (conductivity(celli) & axis_));
         share += V[celli]*spread/(spread + others);
     }
     share =
@@ -259,82 +169,7 @@ Foam::string Foam::granularFlows::through::exchangeSentence() const
     os  << "Flow: the heat exchange (" << exchangeLaw_.name
         << ") has an error of " << 100*e
         << " %, which changes the temperature at the outlet by at most "
-        << frontSlope*width*(hottest_ - coldest_) << " K.";
-    return os.str();
-}
-
-
-Foam::scalar Foam::granularFlows::through::frontWidth() const
-{
-    if (G_ == 0)
-    {
-        return GREAT;
-    }
-    scalar spread = 0, stored = 0;
-    const scalarField& V = mesh_.V();
-    forAll(V, celli)
-    {
-        const scalar c = Gc(gasT_[celli]);
-        spread += V[celli]*(sqr(c)/exchange(celli) + along_*c*diameter(celli));
-        stored += V[celli]*grains_.bulkDensity()[celli];
-    }
-    reduce(spread, sumOp<scalar>());
-    reduce(stored, sumOp<scalar>());
-    const scalar t = mesh_.time().value() - grains_.record().startTime;
-    return std::sqrt(2*spread*t/(stored*properties_.heatCapacity().value()));
-}
-
-
-Foam::string Foam::granularFlows::through::rangeSentence() const
-{
-    OStringStream os;
-    os.precision(3);
-    const auto many = [&os](const bool doubt)
-    {
-        os  << (os.str().empty() ? "" : " ") << (doubt ? "Doubt: " : "");
-        return doubt;
-    };
-    const auto outside = [&](const label cells, const string& what)
-    {
-        if (cells > 0 && many(true))
-        {
-            os  << "Flow: up to " << cells << " cells were out of the range of "
-                << what.c_str() << ".";
-        }
-    };
-    outside(outsideDrag_, "the drag " + string(drag_.name));
-    outside(outsideExchange_, "the heat exchange " + string(exchangeLaw_.name));
-    outside(outsideGas_, "the properties of " + string(gas_.name()));
-    if (largestMach_ > mostMach && many(true))
-    {
-        os  << "Flow: the gas reaches " << largestMach_
-            << " of the speed of sound, allowed: " << mostMach << ".";
-    }
-    if (largestShare_ > mostShare && many(true))
-    {
-        os  << "Flow: the pressure drop reaches " << largestShare_
-            << " of the pressure, whose change is left out in the heat, allowed: "
-            << mostShare << ".";
-    }
-    if (largestBiot_ > mostBiot && many(true))
-    {
-        os  << "Flow: the Biot number h r/k_s of the grains reaches "
-            << largestBiot_ << ", allowed: " << mostBiot
-            << "; the temperature inside of the grains is not resolved.";
-    }
-    const scalar width = frontWidth();
-    if (longestCell_ > width && many(true))
-    {
-        os  << "Flow: cells are up to " << longestCell_
-            << " m long, and a front is " << width
-            << " m wide at the end; cells of this size would resolve it.";
-    }
-    if (unsettled_ && many(true))
-    {
-        os  << "Flow: " << unsettled_ << " of " << solutions_
-            << " solutions did not converge in "
-            << twoFieldMatrix::mostIterations << " iterations.";
-    }
+        << frontSlope*width*(met_.hottest - met_.coldest) << " K.";
     return os.str();
 }
 
@@ -346,8 +181,8 @@ Foam::List<Foam::string> Foam::granularFlows::through::sentences() const
     const scalarList& all = grains_.record().flow;
     OStringStream flow, heat;
     flow.precision(4);
-    flow<< "Flow: " << gas_.name() << ", Re " << min(leastRe_, mostRe_)
-        << " to " << mostRe_;
+    flow<< "Flow: " << gas_.name() << ", Re " << min(met_.leastRe, met_.mostRe)
+        << " to " << met_.mostRe;
     if (G_ != 0)
     {
         const scalar e = bedCorrelations::dragError;
@@ -356,6 +191,11 @@ Foam::List<Foam::string> Foam::granularFlows::through::sentences() const
             << pressureDrop(1 - e) << " to " << pressureDrop(1 + e)
             << " Pa with the error of the drag (" << drag_.name << ", "
             << 100*e << " %)";
+    }
+    if (met_.lift > 0)
+    {
+        flow<< "; it carries up to " << 100*met_.lift
+            << " % of the weight of the grains";
     }
     flow<< ". " << temperatures().c_str();
     heat.precision(4);
@@ -402,9 +242,14 @@ Foam::string Foam::granularFlows::through::summary() const
         << ", \"from_grains\": " << all[bedToWall] << ", \"lost\": "
         << all[lost] << ", \"stored\": " << all[heldByWall]
         << "}, \"relative_difference\": " << difference()
-        << ", \"cells_outside_drag\": " << outsideDrag_
-        << ", \"cells_outside_exchange\": " << outsideExchange_
-        << ", \"cells_outside_gas\": " << outsideGas_
+        << ", \"cells_outside_drag\": " << met_.outsideDrag
+        << ", \"cells_outside_exchange\": " << met_.outsideExchange
+        << ", \"cells_outside_gas\": " << met_.outsideGas
+        << ", \"bed_width_in_grains\": " << min(met_.widths, 1e9)
+        << ", \"mach\": " << met_.mach << ", \"biot\": " << met_.biot
+        << ", \"knudsen\": " << met_.knudsen
+        << ", \"pressure_gradient_over_weight\": " << met_.lift
+        << ", \"rayleigh_at_rest\": " << largestRayleigh_
         << ", \"solutions_per_stage\": "
         << scalar(solutions_)/max(stages_, label(1))
         << ", \"iterations_per_solution\": "

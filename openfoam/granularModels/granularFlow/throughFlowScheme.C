@@ -69,14 +69,16 @@ void Foam::granularFlows::through::findSlopes
     const labelUList& owner = mesh_.owner();
     const labelUList& neighbour = mesh_.neighbour();
     const vectorField& C = mesh_.C();
-    scalarField sum(field.size(), Zero), flux(field.size(), Zero);
+    // Least squares: faces between cells at the same place along the flow,
+    // as in triangles, say nothing of the slope
+    scalarField sum(field.size(), Zero), squares(field.size(), Zero);
     const auto add = [&]
     (
         const label to, const scalar m, const scalar rise, const scalar x
     )
     {
-        sum[to] += m*rise/max(x, VSMALL);
-        flux[to] += m;
+        sum[to] += m*rise*x;
+        squares[to] += m*x*x;
     };
     forAll(owner, facei)
     {
@@ -136,7 +138,8 @@ void Foam::granularFlows::through::findSlopes
     }
     forAll(slope, celli)
     {
-        slope[celli] = flux[celli] > 0 ? sum[celli]/flux[celli] : none;
+        slope[celli] =
+            squares[celli] > 0 ? sum[celli]/squares[celli] : none;
     }
     if (coupled_)
     {
@@ -244,7 +247,7 @@ Foam::granularFlows::through::reconstruct
         return w;
     }
     // Central as far as dispersion keeps that monotone
-    const scalar half = 0.5*length/distance;
+    const scalar half = min(scalar(1), 0.5*length/distance);
     const scalar diffusion = (1 - half)*U.along + half*D->along;
     const scalar central = min(scalar(1), 2*diffusion/(carried*length));
     for (scalar* each : {&w.gasU, &w.bedU, &w.bedD, &w.given})

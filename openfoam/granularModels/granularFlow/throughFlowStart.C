@@ -24,11 +24,6 @@ License
 namespace Foam
 {
 
-//- Largest errors of one temperature times sqrt(xi), of gas and grains, in
-//- percent of a sudden change of the inlet: against Schumann's solution for xi
-//- from 50 to 200
-static const scalar singleGas = 18, singleBed = 13.5;
-
 //- Porosities that a bed of spheres has
 static const scalar densest = 0.2, loosest = 0.7;
 
@@ -96,7 +91,6 @@ Foam::granularFlows::through::through
      && (constantExchange_ || properties.conductivityFunction().isNumber())
      && properties.thermalExpansion().value() == 0
     ),
-    coupled_(false),
     exchangeCoefficient_
     (
         constantExchange_ ? keys.number(dict_, "exchangeCoefficient") : 0
@@ -107,14 +101,6 @@ Foam::granularFlows::through::through
     across_(keys.number(dict_, "dispersionAcross")),
     inlet_(readEnd("inlet")),
     outlet_(readEnd("outlet")),
-    axis_(Zero),
-    area_(0),
-    length_(0),
-    width_(GREAT),
-    perFlow_(1),
-    flows_(false),
-    single_(false),
-    xi_(0),
     unbalanced_(T.size(), Zero),
     gasT_
     (
@@ -141,46 +127,9 @@ Foam::granularFlows::through::through
     before_(T.size(), Zero),
     stage_(T.size(), Zero),
     oldT_(T.size(), Zero),
-    matrix_(T),
-    G_(0),
-    lastChange_(0),
-    lastTau_(0),
-    solutions_(0),
-    stages_(0),
-    iterations_(0),
-    unsettled_(0),
-    outsideDrag_(0),
-    outsideExchange_(0),
-    outsideGas_(0),
-    drop_(0),
-    largestDrop_(0),
-    largestShare_(0),
-    leastRe_(GREAT),
-    mostRe_(0),
-    coldest_(GREAT),
-    hottest_(0),
-    largestMach_(0),
-    largestBiot_(0),
-    longestCell_(0)
+    matrix_(T)
 {
-    const word law(properties.surrogateDict().get<word>("type"));
-    if (law != "spheres" && law != "constant")
-    {
-        FatalIOErrorInFunction(properties)
-            << "Entry 'flow' is through with surrogate type " << law
-            << ", allowed: the types spheres and constant. No correlations of"
-            << " drag and heat exchange are known for discs"
-            << exit(FatalIOError);
-    }
-    const scalar least = gMin(grains.porosity());
-    const scalar most = gMax(grains.porosity());
-    if (least < densest || most > loosest)
-    {
-        FatalErrorInFunction
-            << "Field porosity is from " << least << " to " << most
-            << ", allowed with a flow: " << densest << " to " << loosest
-            << exit(FatalError);
-    }
+    checkBed();
     for (const fvPatch& patch : mesh_.boundary())
     {
         coupled_ = coupled_ || patch.coupled();
@@ -212,6 +161,29 @@ Foam::granularFlows::through::through
 
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+void Foam::granularFlows::through::checkBed() const
+{
+    const word law(properties_.surrogateDict().get<word>("type"));
+    if (law != "spheres" && law != "constant")
+    {
+        FatalIOErrorInFunction(properties_)
+            << "Entry 'flow' is through with surrogate type " << law
+            << ", allowed: the types spheres and constant. No correlations of"
+            << " drag and heat exchange are known for discs"
+            << exit(FatalIOError);
+    }
+    const scalar least = gMin(grains_.porosity());
+    const scalar most = gMax(grains_.porosity());
+    if (least < densest || most > loosest)
+    {
+        FatalErrorInFunction
+            << "Field porosity is from " << least << " to " << most
+            << ", allowed with a flow: " << densest << " to " << loosest
+            << exit(FatalError);
+    }
+}
+
 
 Foam::granularFlows::through::port
 Foam::granularFlows::through::readEnd(const word& key) const

@@ -166,6 +166,96 @@ on_processes_and_restarted() {
         check "gas on $parts processes: temperatures differ by $e <= 1e-10" below "$e" 1e-10
     done
 }
+said() { # what, text: the log of the run says so
+    check "$1" grep -qF -- "$2" log
+}
+doubts() { # beyond what the flow is valid for the log says so, with the number
+    local what entries conductivity e
+    while IFS='|' read -r what entries conductivity; do
+        flow_case flow-doubt 20 "temperatures two; $entries" 'endTime 1; deltaT 1; writeInterval 1;' '' 2
+        sed -i "s/thermalConductivity 2;/thermalConductivity $conductivity;/" constant/granularProperties
+        logged msddFoam
+        said "$what" "$what"
+    done <<-'END'
+	Doubt: Flow: the gas reaches|massFlux 60; gas air; drag KTA;|2
+	Doubt: Flow: the pressure drop reaches|massFlux 60; gas air; drag KTA;|2
+	Doubt: Flow: the Biot number h r/k_s of the grains reaches|massFlux 1; gas air;|0.05
+	Doubt: Flow: the mean free path of the gas reaches|massFlux 1e-4; gas air; gasPressure 10;|2
+	END
+    flow_case flow-doubt 20 "massFlux 1; exchangeCoefficient 1e5; temperatures one; accuracy 1; $thin_gas" 'endTime 1; deltaT 1; writeInterval 1;' '' 2
+    logged msddFoam
+    said "one temperature whose error is above 'accuracy' is in doubt" "allowed by 'accuracy': 1 %"
+    # The sides are 0.1 m apart: ten grains
+    e=$(of_summary bed_width_in_grains)
+    check "a bed between plates 0.1 m apart is $e grains wide, 10" is_within "$e" 9.999 10.001
+    said "the core of a narrow bed lacks gas" 'the core gets about 16.8 % less gas'
+    sed -i 's/meanRadius 0.01/meanRadius 0.002/' constant/granularProperties
+    rm -r 1 log
+    logged msddFoam
+    check "that of a wide one does not" eval '! grep -q "the core gets" log'
+}
+upwards() { # gas that carries the grains, by the closed form of Ergun's drag
+    local G e
+    G=$(awk 'BEGIN { A = 150*2e-5*0.36/0.4^3/4e-4; B = 1.75*0.6/0.4^3/0.02; w = 0.6*1999*9.81; printf "%.10g", (sqrt(A*A + 4*B*w) - A)/(2*B) }')
+    flow_case flow-lift 20 "massFlux $(awk "BEGIN { print 0.999*$G }"); gas constant; temperatures two; drag Ergun;
+        constantGas { density 1; heatCapacity 1000; viscosity 2e-5; thermalConductivity 0.03; }" 'endTime 1; deltaT 1; writeInterval 1;' '' 2
+    gravity_is '-9.81 0 0'
+    logged msddFoam
+    e=$(of_summary pressure_gradient_over_weight)
+    check "gas upwards with 0.999 of what lifts the bed carries $e of its weight" is_within "$e" 0.9975 0.9985
+    said 'and the log says so' 'of the weight of the grains'
+    sed -i "s/massFlux [^;]*/massFlux $(awk "BEGIN { print 1.001*$G }")/" constant/granularProperties
+    rm -r 1
+    check "with 1.001 of it the run ends" refused 'The bed would lift at time 1'
+}
+at_rest() { # helium between a hot floor and a cold lid: Rayleigh number by the closed form
+    local e
+    flow_case flow-rest 100 'massFlux table ((0 0) (1e10 0) (1.1e10 1e-9)); gas helium; gasPressure 2e5; drag Ergun; temperatures two;' \
+        'endTime 1.1e10; deltaT 1e9; writeInterval 11;' '' 2
+    hot_wall in 400
+    hot_wall out 300
+    gravity_is '-9.81 0 0'
+    logged msddFoam
+    e=$(awk -v Ra="$(of_summary rayleigh_at_rest)" 'BEGIN { T = 350; mu = 3.674e-7*T^0.7; rho = 2e5*4.002602e-3/8.314462618/T
+        K = 0.4^3*4e-4/150/0.36; e = Ra/(rho^2*5195*9.81*100/T*K/(mu*2)) - 1; print (e < 0 ? -e : e) }')
+    check "Rayleigh number of helium over a hot floor: differs from the closed form by $e <= 1e-3" below "$e" 1e-3
+    gravity_is '9.81 0 0'
+    rm -r 1[0-9]*
+    logged msddFoam
+    e=$(of_summary rayleigh_at_rest)
+    check "and is $e under a hot lid" test "$e" = 0
+}
+liquid() { # molten salt, which stores more than the grains
+    local e
+    flow_case flow-salt 40 'massFlux 2; gas constant; temperatures auto; constantGas { density 1800; heatCapacity 1500; viscosity 2e-3;
+        thermalConductivity 0.5; }' 'endTime 100; deltaT 5; writeInterval 20;' 'timeScheme secondOrder;' 2
+    logged msddFoam
+    e=$(flow_closes)
+    check "molten salt: heat closes to $e <= 1e-9" below "$e" 1e-9
+    # Both capacities move with the front
+    e=$(paste -d ' ' <(field 100/gasTemperature) <(field 100/T) | awk '{ s += 0.4*1800*1500*($1 - 300) + 6e5*($2 - 300) }
+        END { e = s/NR/(2*1500*100*100) - 1; print (e < 0 ? -e : e) }')
+    check "and is in the pores and grains to $e <= 1e-9" below "$e" 1e-9
+}
+triangles() { # Schumann's bed on triangles that follow no rows
+    local e
+    flow_case flow-triangles 40 "massFlux 1; exchangeCoefficient 20e3; temperatures two; $thin_gas" 'endTime 600; deltaT 6; writeInterval 100;' \
+        'timeScheme secondOrder;' 1e-9
+    rm -r constant/polyMesh
+    awk -v kind=box -v n=100 -v m=10 -v width=1 -v height=0.1 -v irregular=1 -f "$here/mesh.awk" \
+        | sed 's/"left"/"in"/; s/"right"/"out"/; s/"bottom"/"sides"/; s/"top"/"lid"/' > mesh.msh
+    logged gmshToFoam mesh.msh
+    logged foamDictionary -entry entry0.frontAndBack.type -set empty constant/polyMesh/boundary
+    logged msddFoam
+    e=$(flow_closes)
+    check "a bed of triangles: heat closes to $e <= 1e-9" below "$e" 1e-9
+    logged postProcess -funcs '(writeCellCentres)' -time 600
+    e=$(paste -d ' ' <(field 600/Cx) <(field 600/gasTemperature) <(field 600/T) | awk -v table="$(awk -v xi=20 -v tau=20 -v n=2000 -f "$here/schumann.awk")" '
+        BEGIN { split(table, line, "\n") }
+        { split(line[int($1*2000) + 1], T, " "); for (i = 1; i <= 2; i++) { e = ($(i + 1) - 300)/100 - T[i]; s += e*e } }
+        END { print (NR > 1 ? sqrt(s/2/NR) : "nan") }')
+    check "Schumann's bed of triangles: gas and grains differ by $e <= 1e-3 of the step (rms)" below "$e" 1e-3
+}
 no_flow() { # a mass flow of 0 changes nothing
     flow_case flow-off 20 'massFlow 0;' 'endTime 100; deltaT 10; writeInterval 10;' 'timeScheme secondOrder;' 2
     hot_wall out 500
@@ -193,6 +283,17 @@ refusals() {
 	Entry 'temperature' of 'inlet' is -3|s/temperature 400/temperature -3/
 	Entry 'drag' is 'Darcy'|s/massFlux/drag Darcy; &/
 	END
+    flow_case flow-bad 10 'massFlux 0.1;' 'endTime 10; deltaT 10; writeInterval 1;' '' 2
+    start_field stress '[1 -1 -2 0 0 0 0]' '(-2000 0 0 -2000 0 -2000)'
+    sed -i 's/volScalarField/volSymmTensorField/' 0/stress
+    sed -i 's/surrogate .*/surrogate { type spheres; spheresCoeffs { poissonRatio 0.3; } }/' constant/granularProperties
+    check 'spheres without gas are refused' refused "Entry 'gas' of spheresCoeffs is vacuum"
+    check 'and foreseen' foreseen "Entry 'gas' of spheresCoeffs is vacuum"
+    flow_case flow-bad 10 'massFlux 0.1;' 'endTime 10; deltaT 10; writeInterval 1;' '' 2
+    start_field porosity '[0 0 0 0 0 0 0]' 0.18
+    sed -i 's/surrogate .*/surrogate { type network; model builtin; }/' constant/granularProperties
+    check 'discs are refused' refused "Entry 'flow' is through with surrogate type network"
+    check 'and foreseen' foreseen "Entry 'flow' is through with surrogate type network"
 }
 
 two_temperatures
@@ -200,6 +301,11 @@ one_temperature
 steady_states
 a_ramp
 pressure_drops
+doubts
+upwards
+at_rest
+liquid
+triangles
 heat_over_all
 on_processes_and_restarted
 no_flow
