@@ -69,7 +69,7 @@ fn profiles(case: &Path, panel: &Panel<'_>) -> Result<()> {
     }
     chart
         .configure_series_labels()
-        .position(SeriesLabelPosition::UpperLeft)
+        .position(SeriesLabelPosition::LowerRight)
         .background_style(WHITE.mix(0.8))
         .label_font(TEXT)
         .draw()?;
