@@ -63,7 +63,11 @@ static const keyTable regionHeatColumns
         },
         {"patches", "heat received through outer patches", "J"},
         {"fluids", "heat received through walls to fluid regions", "J"},
-        {"sources", "heat received from fvOptions", "J"},
+        {
+            "sources",
+            "heat received from fvOptions, and at walls from a gas that flows"
+            " through a bed", "J"
+        },
         {
             "interfaces",
             "heat received through walls to other solid regions, sum over both"
@@ -242,6 +246,30 @@ Foam::scalar Foam::functionObjects::regionHeat::fromSources(const fvMesh& mesh)
 }
 
 
+Foam::scalar Foam::functionObjects::regionHeat::fromGas
+(
+    const fvMesh& mesh,
+    const label patchi
+)
+{
+    if (!mesh.foundObject<volScalarField>("wallExchange"))
+    {
+        return 0;
+    }
+    const auto field = [&mesh](const word& name) -> const volScalarField&
+    {
+        return mesh.lookupObject<volScalarField>(name);
+    };
+    const fvPatch& patch = mesh.boundary()[patchi];
+    const scalarField gas(field("gasTemperature"), patch.faceCells());
+    return sum
+    (
+        patch.magSf()*field("wallExchange").boundaryField()[patchi]
+       *(gas - field("vesselTemperature").boundaryField()[patchi])
+    );
+}
+
+
 void Foam::functionObjects::regionHeat::add(const scalar heat, scalar& sum)
 {
     const scalar all = returnReduce(heat, sumOp<scalar>());
@@ -274,8 +302,13 @@ void Foam::functionObjects::regionHeat::addPatches
         }
         else if (thermoOf(refCast<const fvMesh>(mapped->sampleMesh())))
         {
+            // What both regions receive there comes from the gas
+            const scalar gas =
+                returnReduce(deltaT*fromGas(mesh, patchi), sumOp<scalar>());
+            sources_ += gas;
+            exchanged_ += mag(gas);
             const scalar all = returnReduce(heat, sumOp<scalar>());
-            interfaces_ += all;
+            interfaces_ += all - gas;
             crossed_ += mag(all);
         }
         else

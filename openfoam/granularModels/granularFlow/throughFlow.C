@@ -188,6 +188,8 @@ Foam::granularFlows::through::heatNow() const
     all[bedToWall] = walls.fromBed;
     all[lost] = walls.lost;
     all[heldByWall] = walls.stored;
+    all[gasToSolids] = walls.gasToSolids;
+    all[bedToSolids] = walls.bedToSolids;
     Pstream::listCombineGather(all, plusEqOp<scalar>());
     Pstream::listCombineScatter(all);
     if (single_)
@@ -240,6 +242,8 @@ void Foam::granularFlows::through::begin()
     }
     stage_ = before_;
     walls_->begin();
+    totalsBefore_ = grains_.record().flow;
+    again_ = false;
 }
 
 
@@ -349,7 +353,29 @@ bool Foam::granularFlows::through::solve
 Foam::scalar Foam::granularFlows::through::heat() const
 {
     const scalarList& now = heatNow().heat;
-    return Pstream::master() ? now[toBed] - now[bedToWall] : 0;
+    return
+        Pstream::master()
+      ? now[toBed] - now[bedToWall] + now[bedToSolids] : 0;
+}
+
+
+Foam::scalar Foam::granularFlows::through::toSolids() const
+{
+    return Pstream::master() ? heatNow().heat[gasToSolids] : 0;
+}
+
+
+void Foam::granularFlows::through::received(const scalar heat)
+{
+    heatNow();
+    last_.heat[toBed] = heat + last_.heat[bedToWall];
+}
+
+
+void Foam::granularFlows::through::reopen()
+{
+    grains_.record().flow = totalsBefore_;
+    again_ = true;
 }
 
 

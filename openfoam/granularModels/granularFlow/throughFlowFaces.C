@@ -198,6 +198,10 @@ void Foam::granularFlows::through::addBed(const fvScalarMatrix& bed)
     source += bed.source();
     forAll(mesh_.boundary(), patchi)
     {
+        if (walls_->meetsSolid(patchi))
+        {
+            continue;
+        }
         const fvPatch& patch = mesh_.boundary()[patchi];
         const labelUList& cells = patch.faceCells();
         const scalarField& internal = bed.internalCoeffs()[patchi];

@@ -89,7 +89,8 @@ void Foam::granularFlows::through::writeLine()
     {
         const fileName folder
         (
-            mesh_.time().globalPath()/functionObject::outputPrefix/"flow"
+            mesh_.time().globalPath()/functionObject::outputPrefix
+           /mesh_.dbDir()/"flow"
            /mesh_.time().timeName(mesh_.time().startTime().value())
         );
         mkDir(folder);
@@ -103,10 +104,21 @@ void Foam::granularFlows::through::writeLine()
         }
         table_() << nl;
     }
-    table_()
-        << mesh_.time().value() << tab << G_ << tab
+    OStringStream row;
+    row.precision(10);
+    row << mesh_.time().value() << tab << G_ << tab
         << (G_ != 0 ? inflow(G_ < 0) : 0) << tab << last_.outletT << tab
-        << drop_ << tab << last_.heat[toBed] + last_.heat[gasToWall] << endl;
+        << drop_ << tab << last_.heat[toBed] + last_.heat[gasToWall];
+    std::string text(row.str());
+    std::ostream& file = table_().stdStream();
+    if (again_)
+    {
+        file.seekp(row_);
+        text.resize(max(label(text.size()), rowLength_), ' ');
+    }
+    row_ = file.tellp();
+    rowLength_ = text.size();
+    file<< text << std::endl;
 }
 
 
@@ -208,9 +220,9 @@ Foam::List<Foam::string> Foam::granularFlows::through::sentences() const
     {
         scalar least, most;
         walls_->extremes(least, most);
-        heat<< ", which got " << all[bedToWall] << " J from the grains, lost "
-            << all[lost] << " J to the outside and holds " << all[heldByWall]
-            << " J more, at " << least << " to " << most << " K";
+        heat<< ", which got " << all[bedToWall] << " J from the grains, passed "
+            << all[lost] << " J on to what lies beyond and holds "
+            << all[heldByWall] << " J more, at " << least << " to " << most << " K";
     }
     heat<< ". The difference is " << difference() << " of the heat that passed. "
         << scalar(solutions_)/max(stages_, label(1)) << " solutions a stage, "

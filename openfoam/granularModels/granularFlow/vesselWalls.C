@@ -16,6 +16,7 @@ License
 
 #include "vesselWalls.H"
 #include "calculatedFvPatchFields.H"
+#include "mappedPatchBase.H"
 
 // * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
 
@@ -46,7 +47,9 @@ const keyTable vesselWalls::keys
             "gasExchange",
             "heat transfer coefficient between gas and wall. Without it that of"
             " Li and Finlayson, Nu = 0.17 Re^0.79, measured within a factor of"
-            " two", "W/(m2 K)", "0 to 1e6", "by the correlation"
+            " two. The only key of a wall to a solid next to the bed (T has the"
+            " condition `granularContact`), which needs no entry",
+            "W/(m2 K)", "0 to 1e6", "by the correlation"
         }
     }
 );
@@ -73,9 +76,7 @@ Foam::vesselWalls::vesselWalls
         IOobject
         (
             "vesselTemperature", mesh_.time().timeName(), mesh_,
-            IOobject::NO_READ,
-            dict.empty() ? IOobject::NO_WRITE : IOobject::AUTO_WRITE,
-            !dict.empty()
+            IOobject::NO_READ, IOobject::AUTO_WRITE
         ),
         mesh_,
         dimensionedScalar(T.dimensions(), Zero),
@@ -83,8 +84,10 @@ Foam::vesselWalls::vesselWalls
     )
 {
     read(keys, dict);
+    findSolids();
     if (empty())
     {
+        T_.checkOut();
         return;
     }
     T_.primitiveFieldRef() = T.primitiveField();
@@ -124,32 +127,98 @@ void Foam::vesselWalls::read(const keyTable& keys, const dictionary& dict)
         const dictionary& of = item.dict();
         keys.check(of);
         const fvPatchScalarField& bed = bedT_.boundaryField()[patchi];
-        if (bed.type() != "zeroGradient")
+        wall& w = add(patchi);
+        if (!w.contact && bed.type() != "zeroGradient")
         {
             FatalErrorInFunction
                 << "Patch " << item.keyword() << " of T has the condition "
                 << bed.type() << ", allowed with an entry in 'walls' of"
                 << " throughCoeffs: zeroGradient, because the heat at the wall"
-                << " follows from that entry" << exit(FatalError);
+                << " follows from that entry, or granularContact"
+                << exit(FatalError);
         }
-        walls_.append(new wall);
-        wall& w = walls_.last();
-        w.patch = patchi;
+        for (const word key : {"heatCapacity", "loss", "ambient"})
+        {
+            if (w.contact && of.found(key))
+            {
+                FatalIOErrorInFunction(of)
+                    << "Entry '" << key << "' of the wall " << item.keyword()
+                    << " in 'walls' of throughCoeffs is given, allowed where T"
+                    << " has the condition granularContact: gasExchange alone,"
+                    << " because the solid beside the bed has the rest"
+                    << exit(FatalIOError);
+            }
+        }
         w.capacity = keys.number(of, "heatCapacity");
         w.loss = keys.number(of, "loss");
         w.given = of.found("gasExchange") ? keys.number(of, "gasExchange", 0) : -1;
-        w.storage = 0;
         if (w.loss > 0)
         {
             w.ambient = Function1<scalar>::New("ambient", of);
             const word key("ambient");
-            keys.within(of, key, outside(w));
+            keys.within(of, key, ambient(w));
         }
     }
 }
 
 
-Foam::scalar Foam::vesselWalls::outside(const wall& w) const
+void Foam::vesselWalls::findSolids()
+{
+    for (const fvPatchScalarField& bed : bedT_.boundaryField())
+    {
+        const label patchi = bed.patch().index();
+        const auto* contact = dynamic_cast<const contactWall*>(&bed);
+        if (contact && !meetsSolid(patchi))
+        {
+            add(patchi);
+        }
+        if (!contact && isA<mappedPatchBase>(bed.patch().patch()))
+        {
+            Info<< "Warning: Flow: the gas does not exchange heat with the"
+                << " neighbour of patch " << bed.patch().name() << ", where T"
+                << " has the condition " << bed.type() << ", needed:"
+                << " granularContact" << nl;
+        }
+    }
+    for (const wall& w : walls_)
+    {
+        if (w.contact && !exchange_.valid())
+        {
+            exchange_.reset
+            (
+                new volScalarField
+                (
+                    IOobject
+                    (
+                        "wallExchange", mesh_.time().timeName(), mesh_,
+                        IOobject::READ_IF_PRESENT, IOobject::AUTO_WRITE
+                    ),
+                    mesh_,
+                    dimensionedScalar(dimPower/dimArea/dimTemperature, Zero),
+                    calculatedFvPatchScalarField::typeName
+                )
+            );
+        }
+    }
+}
+
+
+Foam::vesselWalls::wall& Foam::vesselWalls::add(const label patchi)
+{
+    walls_.append(new wall);
+    wall& w = walls_.last();
+    w.patch = patchi;
+    w.capacity = 0;
+    w.loss = 0;
+    w.given = -1;
+    w.storage = 0;
+    w.contact =
+        dynamic_cast<const contactWall*>(&bedT_.boundaryField()[patchi]);
+    return w;
+}
+
+
+Foam::scalar Foam::vesselWalls::ambient(const wall& w) const
 {
     return w.ambient.valid() ? w.ambient->value(mesh_.time().value()) : 0;
 }
@@ -160,20 +229,33 @@ Foam::scalar Foam::vesselWalls::balanced
     const wall& w,
     const label facei,
     const scalar gas,
-    const scalar bed,
-    const scalar outside
+    const scalar bed
 ) const
 {
-    const scalar all = w.storage + w.toGas[facei] + w.toBed[facei] + w.loss;
+    const scalar all =
+        w.storage + w.toGas[facei] + w.toBed[facei] + w.toOutside[facei];
     return
         (
             w.storage*w.stage[facei] + w.toGas[facei]*gas
-          + w.toBed[facei]*bed + w.loss*outside
+          + w.toBed[facei]*bed + w.toOutside[facei]*w.outside[facei]
         )/all;
 }
 
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+bool Foam::vesselWalls::meetsSolid(const label patchi) const
+{
+    for (const wall& w : walls_)
+    {
+        if (w.patch == patchi && w.contact)
+        {
+            return true;
+        }
+    }
+    return false;
+}
+
 
 void Foam::vesselWalls::addLoads(loadHistories& loads)
 {
@@ -222,58 +304,29 @@ void Foam::vesselWalls::update
     const std::function<scalar(label)>& gas
 )
 {
-    const granularState::conductivityColumns& K = grains_.conductivityOfCells();
     const bool resists =
         properties_.surrogateDict().subOrEmptyDict("spheresCoeffs").isDict("wall");
-    const granularState::stressColumns stress
-    (
-        resists ? grains_.presentStress() : granularState::stressColumns()
-    );
     for (wall& w : walls_)
     {
         const fvPatch& patch = mesh_.boundary()[w.patch];
         const labelUList& cells = patch.faceCells();
-        const vectorField n(patch.nf());
-        scalarField normal(patch.size(), Zero), across(patch.size());
-        scalarField resistance(patch.size(), Zero), there(patch.size());
         w.toGas.resize(patch.size());
-        w.toBed.resize(patch.size());
+        forAll(cells, facei)
+        {
+            w.toGas[facei] = w.given < 0 ? gas(cells[facei]) : w.given;
+        }
+        if (w.contact)
+        {
+            exchange_->boundaryFieldRef()[w.patch] == w.toGas;
+            w.contact->exchange(w.toBed, w.toOutside, w.outside);
+            continue;
+        }
+        scalarField k, resistance;
+        grains_.atWall(w.patch, bedT_, resists, k, resistance);
+        w.toBed = 1/(1/(k*patch.deltaCoeffs()) + resistance);
         w.storage = w.capacity/tau;
-        forAll(cells, facei)
-        {
-            const label P = cells[facei];
-            const vector& v = n[facei];
-            const auto part = [P](const scalarField& column)
-            {
-                return column.empty() ? 0 : column[P];
-            };
-            const symmTensor k
-            (
-                K.xx[P], part(K.xy), part(K.xz), K.yy[P], part(K.yz), part(K.zz)
-            );
-            across[facei] = v & (k & v);
-            there[facei] = bedT_[P];
-            if (resists)
-            {
-                const symmTensor s
-                (
-                    stress[0][P], stress[3][P], stress[4][P],
-                    stress[1][P], stress[5][P], stress[2][P]
-                );
-                normal[facei] = -(v & (s & v));
-            }
-            w.toGas[facei] = w.given < 0 ? gas(P) : w.given;
-        }
-        if (resists)
-        {
-            grains_.model().wallResistance(normal, there, across, resistance);
-        }
-        const scalarField& delta = patch.deltaCoeffs();
-        forAll(cells, facei)
-        {
-            const scalar k = properties_.conductivityFactor()*across[facei];
-            w.toBed[facei] = 1/(1/(k*delta[facei]) + resistance[facei]);
-        }
+        w.toOutside = scalarField(patch.size(), w.loss);
+        w.outside = scalarField(patch.size(), ambient(w));
     }
 }
 
@@ -285,19 +338,19 @@ void Foam::vesselWalls::add(twoFieldMatrix& matrix, const bool single) const
         const fvPatch& patch = mesh_.boundary()[w.patch];
         const labelUList& cells = patch.faceCells();
         const scalarField& area = patch.magSf();
-        const scalar around = outside(w);
         forAll(cells, facei)
         {
             const label P = cells[facei];
             const scalar g = w.toGas[facei], b = w.toBed[facei];
-            const scalar all = w.storage + g + b + w.loss;
+            const scalar o = w.toOutside[facei];
+            const scalar all = w.storage + g + b + o;
             const scalar rest =
-                (w.storage*w.stage[facei] + w.loss*around)/all*area[facei];
+                (w.storage*w.stage[facei] + o*w.outside[facei])/all*area[facei];
             if (single)
             {
                 const scalar both = g + b;
                 matrix.bb().matrix.diag()[P] +=
-                    both*(w.storage + w.loss)/all*area[facei];
+                    both*(w.storage + o)/all*area[facei];
                 matrix.source().b[P] += both*rest;
                 continue;
             }
@@ -319,11 +372,10 @@ void Foam::vesselWalls::solve(const scalarField& gas, const scalarField& bed)
     {
         const labelUList& cells = mesh_.boundary()[w.patch].faceCells();
         scalarField& T = Tw(w);
-        const scalar around = outside(w);
         forAll(cells, facei)
         {
             T[facei] =
-                balanced(w, facei, gas[cells[facei]], bed[cells[facei]], around);
+                balanced(w, facei, gas[cells[facei]], bed[cells[facei]]);
         }
     }
 }
@@ -342,14 +394,17 @@ Foam::vesselWalls::rates Foam::vesselWalls::heat
         const labelUList& cells = patch.faceCells();
         const scalarField& area = patch.magSf();
         const scalarField& T = Tw(w);
-        const scalar around = outside(w);
         forAll(cells, facei)
         {
             const label P = cells[facei];
             const scalar A = area[facei];
-            result.fromGas += A*w.toGas[facei]*(gas[P] - T[facei]);
-            result.fromBed += A*w.toBed[facei]*(bed[P] - T[facei]);
-            result.lost += A*w.loss*(T[facei] - around);
+            const scalar fromGas = A*w.toGas[facei]*(gas[P] - T[facei]);
+            const scalar fromBed = A*w.toBed[facei]*(bed[P] - T[facei]);
+            result.fromGas += fromGas;
+            result.fromBed += fromBed;
+            result.gasToSolids += w.contact ? fromGas : 0;
+            result.bedToSolids += w.contact ? fromBed : 0;
+            result.lost += A*w.toOutside[facei]*(T[facei] - w.outside[facei]);
             result.stored += A*w.storage*(T[facei] - w.stage[facei]);
         }
     }

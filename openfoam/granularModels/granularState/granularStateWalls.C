@@ -49,52 +49,71 @@ void Foam::granularState::setWallResistance()
         return;
     }
     const volScalarField& T = mesh_.lookupObject<volScalarField>("T");
-    const bool spatial = sigma_.size() == 6;
-    const label shear = shearColumn();
     forAll(mesh_.boundary(), patchi)
     {
-        if (T.boundaryField()[patchi].type() != "granularContact")
+        if (T.boundaryField()[patchi].type() == "granularContact")
         {
-            continue;
+            scalarField conductivity, resistance;
+            atWall(patchi, temperature_, true, conductivity, resistance);
+            wallResistance_().boundaryFieldRef()[patchi] == resistance;
         }
-        const fvPatch& patch = mesh_.boundary()[patchi];
-        const labelUList& cells = patch.faceCells();
-        const vectorField n(patch.nf());
-        scalarField stress(n.size()), temperature(n.size());
-        scalarField conductivity(n.size()), resistance(n.size());
-        forAll(n, facei)
-        {
-            const label celli = cells[facei];
-            const symmTensor sigma
-            (
-                sigma_[0][celli],
-                sigma_[shear][celli],
-                spatial ? sigma_[4][celli] : 0,
-                sigma_[1][celli],
-                spatial ? sigma_[5][celli] : 0,
-                spatial ? sigma_[2][celli] : 0
-            );
-            const symmTensor K
-            (
-                K_.xx[celli],
-                K_.xy.size() ? K_.xy[celli] : 0,
-                K_.zz.size() ? K_.xz[celli] : 0,
-                K_.yy[celli],
-                K_.zz.size() ? K_.yz[celli] : 0,
-                K_.zz.size() ? K_.zz[celli] : 0
-            );
-            stress[facei] = n[facei] & (sigma & n[facei]);
-            temperature[facei] = temperature_[celli];
-            // Above zero for the law, also in a vacuum without contacts
-            conductivity[facei] = max
-            (
-                properties_.conductivityFactor()
-               *(n[facei] & (K & n[facei])),
-                SMALL
-            );
-        }
+    }
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+void Foam::granularState::atWall
+(
+    const label patchi,
+    const scalarField& T,
+    const bool resists,
+    scalarField& conductivity,
+    scalarField& resistance
+) const
+{
+    const bool spatial = sigma_.size() == 6;
+    const label shear = shearColumn();
+    const fvPatch& patch = mesh_.boundary()[patchi];
+    const labelUList& cells = patch.faceCells();
+    const vectorField n(patch.nf());
+    scalarField stress(n.size()), temperature(n.size());
+    conductivity.resize(n.size());
+    resistance = scalarField(n.size(), Zero);
+    forAll(n, facei)
+    {
+        const label celli = cells[facei];
+        const symmTensor sigma
+        (
+            sigma_[0][celli],
+            sigma_[shear][celli],
+            spatial ? sigma_[4][celli] : 0,
+            sigma_[1][celli],
+            spatial ? sigma_[5][celli] : 0,
+            spatial ? sigma_[2][celli] : 0
+        );
+        const symmTensor K
+        (
+            K_.xx[celli],
+            K_.xy.size() ? K_.xy[celli] : 0,
+            K_.zz.size() ? K_.xz[celli] : 0,
+            K_.yy[celli],
+            K_.zz.size() ? K_.yz[celli] : 0,
+            K_.zz.size() ? K_.zz[celli] : 0
+        );
+        stress[facei] = n[facei] & (sigma & n[facei]);
+        temperature[facei] = T[celli];
+        // Above zero for the law, also in a vacuum without contacts
+        conductivity[facei] = max
+        (
+            properties_.conductivityFactor()
+           *(n[facei] & (K & n[facei])),
+            SMALL
+        );
+    }
+    if (resists)
+    {
         model_->wallResistance(stress, temperature, conductivity, resistance);
-        wallResistance_().boundaryFieldRef()[patchi] == resistance;
     }
 }
 

@@ -157,14 +157,35 @@ bool Foam::granularContactFvPatchScalarField::resistance(scalarField& R) const
 }
 
 
-// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
-
-void Foam::granularContactFvPatchScalarField::updateCoeffs()
+void Foam::granularContactFvPatchScalarField::addGas
+(
+    scalarField& h,
+    scalarField& hT
+) const
 {
-    if (updated())
+    const fvMesh& mesh = patch().boundaryMesh().mesh();
+    if (mesh.foundObject<volScalarField>("wallExchange"))
     {
-        return;
+        const fvPatchScalarField& own =
+            patch().lookupPatchField<volScalarField, scalar>("wallExchange");
+        const scalarField T
+        (
+            mesh.lookupObject<volScalarField>("gasTemperature"),
+            patch().faceCells()
+        );
+        h += own;
+        hT += own*T;
     }
+}
+
+
+void Foam::granularContactFvPatchScalarField::lookBeyond
+(
+    scalarField& G,
+    scalarField& T,
+    scalarField& R
+) const
+{
     // Messages between processes may be under way already
     const int oldTag = UPstream::msgType();
     UPstream::msgType() = oldTag + 1;
@@ -189,27 +210,65 @@ void Foam::granularContactFvPatchScalarField::updateCoeffs()
     const granularContactFvPatchScalarField& nbr =
         refCast<const granularContactFvPatchScalarField>(there);
 
-    scalarField TcNbr(nbr.patchInternalField());
+    T = nbr.patchInternalField();
     scalarField KDeltaNbr(nbr.kappa()*nbrPatch.deltaCoeffs());
-    scalarField RNbr(nbr.size(), Zero), R(size(), Zero);
+    scalarField RNbr(nbr.size(), Zero);
+    scalarField h(nbr.size(), Zero), hT(nbr.size(), Zero);
+    R = scalarField(size(), Zero);
     const bool bedThere = nbr.resistance(RNbr), bedHere = resistance(R);
     if (!bedHere && !bedThere)
     {
         refuse("a bed on neither side, allowed: a bed on one side at least");
     }
-    mapped.distribute(TcNbr);
-    mapped.distribute(KDeltaNbr);
-    mapped.distribute(RNbr);
+    nbr.addGas(h, hT);
+    for (scalarField* each : {&T, &KDeltaNbr, &RNbr, &h, &hT})
+    {
+        mapped.distribute(*each);
+    }
+    UPstream::msgType() = oldTag;
+
+    const scalarField across(KDeltaNbr/(1 + KDeltaNbr*RNbr));
+    G = across + h;
+    T += (hT - h*T)/max(G, VSMALL);
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+void Foam::granularContactFvPatchScalarField::updateCoeffs()
+{
+    if (updated())
+    {
+        return;
+    }
+    scalarField G, T, R;
+    lookBeyond(G, T, R);
+    scalarField h(size(), Zero), hT(size(), Zero);
+    addGas(h, hT);
+    G += h;
+    T += (hT - h*T)/max(G, VSMALL);
 
     const scalarField here(kappa()*patch().deltaCoeffs());
     // Grains that do not touch in a vacuum conduct nothing
-    const scalarField across(KDeltaNbr/(1 + KDeltaNbr*(R + RNbr)));
-    refValue() = TcNbr;
+    const scalarField across(G/(1 + G*R));
+    refValue() = T;
     refGrad() = Zero;
     valueFraction() = across/max(across + here, VSMALL);
     mixedFvPatchScalarField::updateCoeffs();
+}
 
-    UPstream::msgType() = oldTag;
+
+void Foam::granularContactFvPatchScalarField::exchange
+(
+    scalarField& toBed,
+    scalarField& beyond,
+    scalarField& T
+) const
+{
+    scalarField R;
+    lookBeyond(beyond, T, R);
+    const scalarField here(kappa()*patch().deltaCoeffs());
+    toBed = here/(1 + here*R);
 }
 
 

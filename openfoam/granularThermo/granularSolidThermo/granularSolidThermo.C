@@ -200,6 +200,61 @@ void Foam::granularSolidThermo::checkEntries() const
             << " in a region of " << typeName << ": a number. msddFoam takes it"
             << exit(FatalIOError);
     }
+    checkFlow();
+}
+
+
+void Foam::granularSolidThermo::checkFlow() const
+{
+    if (granularProperties::grainKeys.choice(properties_, "flow") == "none")
+    {
+        return;
+    }
+    const fvMesh& mesh = T_.mesh();
+    bool called = false;
+    for (const word& place : {mesh.time().constant(), mesh.time().system()})
+    {
+        IOobject file
+        (
+            "fvOptions", place, mesh,
+            IOobject::MUST_READ, IOobject::NO_WRITE, false
+        );
+        if (!file.typeHeaderOk<IOdictionary>(true))
+        {
+            continue;
+        }
+        const IOdictionary dict(file);
+        for (const entry& item : dict.optionalSubDict("options"))
+        {
+            const word type
+            (
+                item.isDict()
+              ? item.dict().getOrDefault<word>("type", word::null)
+              : word::null
+            );
+            called =
+                called
+             || (
+                    type == "granularFlow"
+                 && item.dict().getOrDefault("active", true)
+                );
+            if (type.find("Constraint") != string::npos)
+            {
+                FatalIOErrorInFunction(dict)
+                    << "Source " << item.keyword() << " is of type " << type
+                    << ", allowed in a bed with a flow: sources that fix no"
+                    << " temperatures" << exit(FatalIOError);
+            }
+        }
+        break;
+    }
+    if (!called)
+    {
+        FatalIOErrorInFunction(properties_)
+            << "Entry 'flow' is given, and constant/" << mesh.name()
+            << "/fvOptions does not call it, needed:"
+            << " gas { type granularFlow; }" << exit(FatalIOError);
+    }
 }
 
 

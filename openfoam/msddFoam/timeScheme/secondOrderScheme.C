@@ -144,6 +144,7 @@ Foam::timeSchemes::secondOrder::secondOrder
     firstHeat_(T.mesh().boundary().size(), Zero),
     firstSource_(0),
     firstOutside_(0),
+    firstGiven_(0),
     rejected_(0),
     forced_(0)
 {
@@ -331,6 +332,7 @@ Foam::scalar Foam::timeSchemes::secondOrder::stages(const scalar deltaT)
     firstHeat_ = heat_.patchHeat();
     firstSource_ = heat_.sourceHeat();
     firstOutside_ = neighbours_.heat();
+    firstGiven_ = ofNeighbours();
 
     forAll(T, celli)
     {
@@ -463,7 +465,7 @@ void Foam::timeSchemes::secondOrder::accountStages(const scalar deltaT)
     neighbours_.finish
     (
         deltaT*mean(firstOutside_, neighbours_.heat()),
-        deltaT*mean(ofNeighbours(firstHeat_), ofNeighbours(heat_.patchHeat()))
+        deltaT*mean(firstGiven_, ofNeighbours())
     );
     heat_.flow().finish(deltaT, gamma2);
 }

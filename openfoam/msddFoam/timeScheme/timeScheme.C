@@ -211,7 +211,7 @@ void Foam::timeScheme::account(const scalar interval)
     record.exchanged += interval*mag(heat_.sourceHeat());
     neighbours_.finish
     (
-        interval*neighbours_.heat(), interval*ofNeighbours(heat)
+        interval*neighbours_.heat(), interval*ofNeighbours()
     );
     heat_.flow().finish(interval, 1);
 }
@@ -274,9 +274,10 @@ void Foam::timeScheme::report() const
 }
 
 
-Foam::scalar Foam::timeScheme::ofNeighbours(const scalarList& heat) const
+Foam::scalar Foam::timeScheme::ofNeighbours()
 {
-    scalar sum = 0;
+    const scalarList& heat = heat_.patchHeat();
+    scalar sum = -heat_.flow().toSolids();
     forAll(heat, patchi)
     {
         const polyPatch& patch = T_.mesh().boundaryMesh()[patchi];
