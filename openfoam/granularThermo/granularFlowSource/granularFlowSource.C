@@ -141,6 +141,36 @@ Foam::tmp<Foam::fvScalarMatrix> Foam::fv::granularFlowSource::ofTemperature
 }
 
 
+Foam::tmp<Foam::scalarField> Foam::fv::granularFlowSource::beyond
+(
+    const fvScalarMatrix& equation
+)
+{
+    const scalarField& x = equation.psi().primitiveField();
+    tmp<scalarField> result(new scalarField(x.size()));
+    scalarField& heat = result.ref();
+    equation.Amul
+    (
+        heat, x, equation.boundaryCoeffs(),
+        equation.psi().boundaryField().scalarInterfaces(), 0
+    );
+    heat -= equation.source();
+    forAll(equation.internalCoeffs(), patchi)
+    {
+        const fvPatch& patch = equation.psi().mesh().boundary()[patchi];
+        const scalarField& internal = equation.internalCoeffs()[patchi];
+        const scalarField& boundary = equation.boundaryCoeffs()[patchi];
+        forAll(internal, facei)
+        {
+            const label P = patch.faceCells()[facei];
+            heat[P] +=
+                internal[facei]*x[P] - (patch.coupled() ? 0 : boundary[facei]);
+        }
+    }
+    return result;
+}
+
+
 void Foam::fv::granularFlowSource::report() const
 {
     OStringStream os;
@@ -224,7 +254,7 @@ void Foam::fv::granularFlowSource::constrain
         }
     }
     h.primitiveFieldRef() = c*T.primitiveField();
-    heat_ = -eqn.residual();
+    heat_ = beyond(eqn);
 
     equation_.reset(new fvScalarMatrix(eqn));
     forAll(T.boundaryField(), patchi)
@@ -243,7 +273,7 @@ void Foam::fv::granularFlowSource::correct(volScalarField&)
 {
     if (flow_->active())
     {
-        flow_->received(-gSum(equation_->residual()()));
+        flow_->received(gSum(beyond(equation_())()));
         flow_->finish(mesh_.time().deltaTValue(), 1);
         finished_ = true;
     }
