@@ -38,12 +38,14 @@ of_regions() { # column of the last line of regionHeat.dat
     table=$(ls -t postProcessing/regionHeat/*/regionHeat.dat | head -n 1)
     awk -v name="$1" '/^# Time/ { for (i = 2; i <= NF; i++) at[$i] = i - 1 } !/^#/ { value = $at[name] } END { print value }' "$table"
 }
-against_msdd_foam() { # Schumann's bed, and air that charges a bed with a thin vessel
+against_msdd_foam() { # Schumann's bed, air with one temperature, and air that charges a bed with a thin vessel
     local e name kind run
     run='endTime 600; deltaT 6; writeInterval 100;'
-    for kind in schumann air; do
+    for kind in schumann one air; do
         if [ $kind = schumann ]; then
             flow_case flow-beside 50 "massFlux 1; exchangeCoefficient 2e4; temperatures two; $thin_gas" "$run" '' 1e-9
+        elif [ $kind = one ]; then
+            flow_case flow-beside 50 'massFlux 0.3; gasPressure 1e5; temperatures one;' "$run" '' 1
         else
             across=3 flow_case flow-beside 50 'massFlux 0.3; gasPressure 1e5; walls { sides { heatCapacity 8000; loss 2; ambient 300; } }' "$run" '' 1
         fi
@@ -113,6 +115,10 @@ steel_tube() {
     check "and $lost of it is lost outside, 0.005 to 0.5" is_within "$lost" 0.005 0.5
     e=$(awk "BEGIN { a = $(sed -n 's/.*"vessel": {"from_gas": \([^,]*\).*/\1/p' postProcessing/bed/msddFoam/summary.json); print a }")
     check "the gas gives the tube $e > 0 J" awk "BEGIN { exit !($e > 0) }"
+    tube_case flow-tube-one 8 "$run" 'temperatures one;'
+    logged chtMultiRegionFoam
+    e=$(tube_balance)
+    check "with one temperature of gas and grains the heat closes to $e <= 1e-4" below "$e" 1e-4
     # A tube that is thinner and conducts less along the flow, as wall of one temperature
     tube_case flow-tube-thin 8 "$run" '' '' 0.2
     logged chtMultiRegionFoam
@@ -150,6 +156,11 @@ balance_at_wall() { # spheres that touch the tube: T of the wall by its equation
     e=$(sed -n '/^    top$/,/}/s/.*uniform \([0-9.e+-]*\);/\1/p' 60/bed/wallExchange)
     e=$(awk "BEGIN { e = ${e:-0}/(0.17*200^0.79*0.03/0.02) - 1; print (e < 0 ? -e : e) }")
     check "coefficient between gas and wall: differs from Nu = 0.17 Re^0.79 by $e <= 1e-12" below "$e" 1e-12
+}
+given_exchange() {
+    tube_case flow-tube-given 1 'endTime 60; deltaT 60; writeInterval 1;' 'walls { top { gasExchange 50; } }'
+    logged chtMultiRegionFoam
+    check "a given coefficient between gas and tube" bash -c 'sed -n "/^    top$/,/}/p" 60/bed/wallExchange | grep -q "uniform 50;"'
 }
 without_contact() {
     tube_case flow-tube-blind 3 'endTime 60; deltaT 60; writeInterval 1;' '' 'compressible::turbulentTemperatureRadCoupledMixed; Tnbr T; kappaMethod solidThermo'
@@ -245,6 +256,7 @@ region_refusals() {
 against_msdd_foam
 steel_tube
 balance_at_wall
+given_exchange
 without_contact
 tube_beside_msdd_foam
 restarted_and_on_processes
