@@ -79,8 +79,16 @@ void Foam::heatEquation::checkSources()
     PtrList<fv::option>& all = sources_;
     for (fv::option& source : all)
     {
-        constrained_ =
-            constrained_ || source.type().find("Constraint") != string::npos;
+        const bool fixes = source.type().find("Constraint") != string::npos;
+        constrained_ = constrained_ || fixes;
+        if (fixes && flow_->active())
+        {
+            FatalErrorInFunction
+                << "Source " << source.name() << " of constant/fvOptions is of"
+                << " type " << source.type() << ", allowed in a bed with a"
+                << " flow: sources that fix no temperatures"
+                << exit(FatalError);
+        }
         if (source.applyToField(T_.name()) < 0)
         {
             FatalErrorInFunction

@@ -19,6 +19,7 @@ License
 #include "wholeFile.H"
 #include "OStringStream.H"
 #include "functionObject.H"
+#include "OSspecific.H"
 #include "addToRunTimeSelectionTable.H"
 
 // * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
@@ -171,6 +172,14 @@ Foam::tmp<Foam::scalarField> Foam::fv::granularFlowSource::beyond
 }
 
 
+Foam::fileName Foam::fv::granularFlowSource::path() const
+{
+    return
+        mesh_.time().globalPath()/functionObject::outputPrefix/mesh_.name()
+       /"msddFoam/summary.json";
+}
+
+
 void Foam::fv::granularFlowSource::report() const
 {
     OStringStream os;
@@ -191,12 +200,7 @@ void Foam::fv::granularFlowSource::report() const
     os  << "\n  ]\n}\n";
     if (Pstream::master())
     {
-        writeWhole
-        (
-            mesh_.time().globalPath()/functionObject::outputPrefix
-           /mesh_.name()/"msddFoam/summary.json",
-            [&](std::ostream& file) { file << os.str(); }
-        );
+        writeWhole(path(), [&](std::ostream& file) { file << os.str(); });
     }
 }
 
@@ -271,12 +275,17 @@ void Foam::fv::granularFlowSource::constrain
 
 void Foam::fv::granularFlowSource::correct(volScalarField&)
 {
-    if (flow_->active())
+    if (!flow_->active())
     {
-        flow_->received(gSum(beyond(equation_())()));
-        flow_->finish(mesh_.time().deltaTValue(), 1);
-        finished_ = true;
+        return;
     }
+    if (!finished_ && Pstream::master())
+    {
+        rm(path());
+    }
+    flow_->received(gSum(beyond(equation_())()));
+    flow_->finish(mesh_.time().deltaTValue(), 1);
+    finished_ = true;
 }
 
 
