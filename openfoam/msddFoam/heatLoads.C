@@ -15,6 +15,7 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "heatEquation.H"
+#include "heatBeyond.H"
 #include "cellSetOption.H"
 #include "mixedFvPatchFields.H"
 #include "IStringStream.H"
@@ -152,13 +153,13 @@ Foam::scalar Foam::heatEquation::heatOfConstraints() const
     }
     // What the equation without them lacks, in the cells whose row they have
     // changed: elsewhere that is the error of the linear solver
-    const scalarField lack(free_().residual());
+    const scalarField beyond(heatBeyond(free_()));
     const scalarField& before = free_().source();
     const scalarField& now = TEqn_.source();
     scalar heat = 0;
-    forAll(lack, celli)
+    forAll(beyond, celli)
     {
-        heat -= now[celli] != before[celli] ? lack[celli] : 0;
+        heat += now[celli] != before[celli] ? beyond[celli] : 0;
     }
     return heat;
 }

@@ -178,6 +178,20 @@ Foam::scalar Foam::functionObjects::regionHeat::storedInStep
 }
 
 
+Foam::scalar Foam::functionObjects::regionHeat::content
+(
+    const fvMesh& mesh
+)
+{
+    const solidThermo& thermo = *thermoOf(mesh);
+    return sum
+    (
+        mesh.V()*fraction(mesh)*thermo.rho()().primitiveField()
+       *thermo.Cp()().primitiveField()*thermo.T().primitiveField()
+    );
+}
+
+
 Foam::scalar Foam::functionObjects::regionHeat::throughPatch
 (
     const fvMesh& mesh,
@@ -406,13 +420,16 @@ bool Foam::functionObjects::regionHeat::write()
             << endl;
         return true;
     }
-    scalar stored = 0;
+    scalar stored = 0, held = 0;
     for (const word& region : regions())
     {
         stored += stored_[region];
+        held += returnReduce(content(mesh(region)), sumOp<scalar>());
     }
+    // Where nothing is exchanged the difference is rounding of what is held
     difference_ =
-        mag(stored - patches_ - fluids_ - sources_)/max(exchanged_, VSMALL);
+        mag(stored - patches_ - fluids_ - sources_)
+       /max(exchanged_, max(runRecord::roundedHeat*held, VSMALL));
 
     if (Pstream::master())
     {

@@ -19,6 +19,7 @@ License
 #include "wholeFile.H"
 #include "OStringStream.H"
 #include "functionObject.H"
+#include "heatBeyond.H"
 #include "OSspecific.H"
 #include "addToRunTimeSelectionTable.H"
 
@@ -142,36 +143,6 @@ Foam::tmp<Foam::fvScalarMatrix> Foam::fv::granularFlowSource::ofTemperature
 }
 
 
-Foam::tmp<Foam::scalarField> Foam::fv::granularFlowSource::beyond
-(
-    const fvScalarMatrix& equation
-)
-{
-    const scalarField& x = equation.psi().primitiveField();
-    tmp<scalarField> result(new scalarField(x.size()));
-    scalarField& heat = result.ref();
-    equation.Amul
-    (
-        heat, x, equation.boundaryCoeffs(),
-        equation.psi().boundaryField().scalarInterfaces(), 0
-    );
-    heat -= equation.source();
-    forAll(equation.internalCoeffs(), patchi)
-    {
-        const fvPatch& patch = equation.psi().mesh().boundary()[patchi];
-        const scalarField& internal = equation.internalCoeffs()[patchi];
-        const scalarField& boundary = equation.boundaryCoeffs()[patchi];
-        forAll(internal, facei)
-        {
-            const label P = patch.faceCells()[facei];
-            heat[P] +=
-                internal[facei]*x[P] - (patch.coupled() ? 0 : boundary[facei]);
-        }
-    }
-    return result;
-}
-
-
 Foam::fileName Foam::fv::granularFlowSource::path() const
 {
     return
@@ -258,7 +229,7 @@ void Foam::fv::granularFlowSource::constrain
         }
     }
     h.primitiveFieldRef() = c*T.primitiveField();
-    heat_ = beyond(eqn);
+    heat_ = heatBeyond(eqn);
 
     equation_.reset(new fvScalarMatrix(eqn));
     forAll(T.boundaryField(), patchi)
@@ -283,7 +254,7 @@ void Foam::fv::granularFlowSource::correct(volScalarField&)
     {
         rm(path());
     }
-    flow_->received(gSum(beyond(equation_())()));
+    flow_->received(gSum(heatBeyond(equation_())()));
     flow_->finish(mesh_.time().deltaTValue(), 1);
     finished_ = true;
 }

@@ -81,6 +81,13 @@ held() { # shape, time scheme: cells that are held at a temperature, some beside
     logged msddFoam
     e=$(worst heatAudit 6)
     check "$1, $2: heat balance with cells that are held closes to $e <= 1e-10" below "$e" 1e-10
+    if [ "$1" = quadrilaterals ]; then
+        rm -rf 0.* [1-9]* postProcessing
+        in_parts '4 1' # cells that are held lie at the end of the first process
+        side_by_side 4
+        e=$(worst heatAudit 6)
+        check "and on four processes to $e <= 1e-10" below "$e" 1e-10
+    fi
     check "$1, $2: holding them gives heat" test "$(awk 'END { print ($4 > 0) }' postProcessing/heatAudit/0/heatAudit.dat)" = 1
 }
 for shape in $shapes; do

@@ -137,6 +137,17 @@ region_heat() { controls 'functions { regionHeat { type regionHeat; libs ("libgr
 balance() { # field of the last line of regionHeat.dat: number after the columns of the regions (bed and plate)
     tail -n 1 postProcessing/regionHeat/*/regionHeat.dat | tail -n 1 | awk -v column="$1" '{ print $column }'
 }
+nothing_happens() { # rounding of the heat that is held is no difference of the balance
+    beside_plate still-regions 3 '12 8'
+    rm constant/bed/fvOptions
+    temperature bed 'uniform 50' "$(coupled right 1e-3) \".*\" { type zeroGradient; }"
+    temperature plate 'uniform 50' "$(coupled left 1e-3) \".*\" { type zeroGradient; }"
+    sed -i 's/value uniform 0/value uniform 50/' 0/*/T
+    region_heat
+    logged chtMultiRegionFoam
+    e=$(balance 9)
+    check "regions without heat from outside: the balance closes to $e <= 1e-3" below "$e" 1e-3
+}
 energy_of_regions() { # heat from within goes to the plate and to the walls; with few solutions in a step the interface loses some
     local e
     beside_plate heat-regions 30 '12 8'
@@ -334,6 +345,7 @@ silo
 against_msdd_foam
 layers_in_time
 layers_at_rest
+nothing_happens
 energy_of_regions
 unequal_faces_of_regions
 restarted_regions
