@@ -29,7 +29,9 @@ const TEXT: (&str, i32) = ("sans-serif", 15);
 
 fn main() -> Result<()> {
     let arguments: Vec<String> = std::env::args().collect();
-    let [_, case, file] = arguments.as_slice() else { return Err("usage: store_picture CASE FILE.svg".into()) };
+    let [_, case, file] = arguments.as_slice() else {
+        return Err("usage: store_picture CASE FILE.svg".into());
+    };
     let case = Path::new(case);
     let root = SVGBackend::new(file, SIZE).into_drawing_area();
     root.fill(&WHITE)?;
