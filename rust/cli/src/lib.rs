@@ -5,7 +5,6 @@
 #[macro_use]
 mod output;
 
-mod ablation;
 mod bed;
 mod bench;
 mod case;
@@ -74,12 +73,6 @@ enum Command {
     /// Errors of thermal strains in one step and in many, and, for a model with a mechanical tangent, errors along the paths
     /// of strain of periodic boxes, by kind of path and number of grains.
     Score(score::Arguments),
-    /// Measure how much each input of the paper's network, and each part of the law, contributes, by training without it.
-    ///
-    /// The parts of the law, if the database has periodic boxes, are sliding, the second element, dilatancy, the dependence
-    /// on looseness, and the shear modulus that grows less than in proportion to the pressure. Last, the law is compared with
-    /// a learned form of it: errors along paths, energy of closed cycles of strain, time of an increment.
-    Ablation(ablation::Arguments),
     /// Write the report on speed and accuracy, a page with figures; runs the simulations that are missing.
     Report(report::Arguments),
     /// Compare the solver's results of the six cases with discrete elements: table, JSON and plot.
@@ -104,7 +97,6 @@ pub fn run() -> ExitCode {
         Command::Bench(command) => bench::run(&command),
         Command::Train(arguments) => train::run(&arguments),
         Command::Score(arguments) => score::run(&arguments),
-        Command::Ablation(arguments) => ablation::run(&arguments),
         Command::Report(arguments) => report::run(&arguments),
         Command::Summary(arguments) => summary::run(&arguments),
     };

@@ -157,7 +157,6 @@ fn what_check_refuses_is_refused_by_all_and_older_files_are_warned_of() {
     let damaged = "a.csv: is damaged: ";
     refused(&folder, "$msdd database check a.csv", damaged);
     refused(&folder, "$msdd train --database a.csv --out model.json", damaged);
-    refused(&folder, "$msdd ablation --database a.csv", damaged);
     refused(&folder, "$msdd database plot a.csv --out plots", damaged);
     refused(&folder, "$msdd database export a.csv --out b.csv", damaged);
     assert!(!folder.join("model.json").exists() && !folder.join("b.csv").exists());

@@ -20,7 +20,6 @@
 //! | [`training`] | the complete training of the paper's network |
 //! | [`scores`] | R² (Eq. 12) |
 //! | [`score`], [`composition`], [`noise`] | errors of a model on held-out packings; composed increments; noise floor |
-//! | [`ablation`] | how much each input contributes |
 //! | [`compared`] | ranges of the beds by which the default models were compared with discrete elements |
 //! | [`drift`] | error of composed increments of the paper's network |
 //! | [`region`] | where the training states lie, and how much packings of equal state differ |
@@ -32,7 +31,6 @@
 //! | [`model_file`], [`document`] | the file of the paper's network; what all model files share |
 #![deny(unsafe_code)] // kernel/ alone may: vectors of the instruction sets and what calls them
 
-pub mod ablation;
 pub mod compared;
 pub mod composition;
 pub mod constant;

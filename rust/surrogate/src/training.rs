@@ -9,7 +9,7 @@ use crate::options::TrainingOptions;
 use crate::predictor::Predictor;
 use crate::report::{Parts, Provenance, Report};
 use crate::scaling::{self, OutputScales, TrainedRange};
-use crate::scores::{Scores, scores};
+use crate::scores::scores;
 use crate::solid_fraction::SolidFraction;
 use crate::training_data::TrainingData;
 use crate::{Model, SurrogateError};
@@ -70,21 +70,10 @@ const MOST_SAMPLES: usize = 40_000;
 
 /// Samples of some ramps. When there are too many, only every second, third, … of them is taken, each with its mirror
 /// image.
-pub(crate) fn samples(ramps: &[Ramp]) -> Vec<Sample> {
+fn samples(ramps: &[Ramp]) -> Vec<Sample> {
     let samples: Vec<Sample> = ramps.iter().flat_map(Ramp::samples).collect();
     let every = samples.len().div_ceil(MOST_SAMPLES).max(1);
     samples.chunks(2).step_by(every).flatten().copied().collect()
-}
-
-/// Scores on the test samples for a network fitted to the other samples.
-pub(crate) fn scores_of_fit(
-    samples: &Parts<Vec<Sample>>,
-    range: &TrainedRange,
-    scales: &OutputScales,
-    options: &TrainingOptions,
-) -> Scores {
-    let network = best_of_starts(samples, range, scales, options, &mut |_| ()).network;
-    scores(&Predictor { network, range: *range, scales: *scales }, &samples.test)
 }
 
 /// Result of one start.

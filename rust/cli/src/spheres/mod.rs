@@ -8,7 +8,6 @@ use crate::error::CliError;
 use msdd_files::{check_writable, read_text, write};
 use msdd_rve::database::read_spheres;
 use msdd_surrogate::document::hash;
-use msdd_surrogate::spheres::ablation::{ablation, nanoseconds};
 use msdd_surrogate::spheres::errors::Errors;
 use msdd_surrogate::spheres::model::SphereModel;
 use msdd_surrogate::spheres::score::{PathErrors, score};
@@ -189,48 +188,4 @@ fn percent(value: f64) -> String {
 
 fn numbers(errors: &Errors) -> [f64; 4] {
     [errors.pressure, errors.deviator, errors.contact, errors.gas]
-}
-
-/// Fits the law without each of its parts; prints and writes the errors, and the time of an increment of the law that is shipped.
-pub fn print_ablation(
-    database: &[PathBuf],
-    seed: u64,
-    epochs: u32,
-    json: Option<&Path>,
-) -> Result<(), CliError> {
-    let (tracks, database_of) = read(database)?;
-    let options =
-        TrainingOptions { seed, max_epochs: epochs, database: database_of, ..TrainingOptions::default() };
-    let failed = |source| CliError::Training { file: database[0].clone(), source };
-    let lines = ablation(&tracks, &options).map_err(failed)?;
-    let law = SphereModel::builtin().map_err(failed)?.file.law;
-    let time = nanoseconds(&law, &tracks);
-    outln!(
-        "errors along the paths of packings that were held out, %, means over the kinds of path, where all is known at their start"
-    );
-    outln!(
-        "{:<44} {:>7} {:>9} {:>9} {:>13} {:>9}",
-        "law of spheres",
-        "numbers",
-        "pressure",
-        "deviator",
-        "K by contacts",
-        "K by gas"
-    );
-    for line in &lines {
-        out!(
-            "{:<44} {:>7}",
-            line.without.map_or("whole".to_string(), |part| format!("without {part}")),
-            line.numbers
-        );
-        let [pressure, deviator, contact, gas] = numbers(&line.along).map(|error| 100.0 * error);
-        outln!(" {pressure:>9.1} {deviator:>9.1} {contact:>13.1} {gas:>9.1}");
-    }
-    outln!("{time:.0} ns for an increment of the law");
-    if let Some(path) = json {
-        let text = serde_json::to_string_pretty(&serde_json::json!({ "lines": lines, "nanoseconds": time }))
-            .map_err(|error| CliError::Message(format!("cannot write the scores: {error}")))?;
-        write(path, (text + "\n").as_bytes())?;
-    }
-    Ok(())
 }

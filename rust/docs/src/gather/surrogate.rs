@@ -34,7 +34,6 @@ pub fn section(root: &Path) -> Result<Section, DocsError> {
             probes(&mut section, &score)?;
         }
     }
-    forms(&mut section, &Json::read(root, &format!("{INPUTS}/score_forms.json"))?)?;
     spheres(&mut section, &Json::read(root, &format!("{INPUTS}/score_spheres.json"))?)?;
     let cycling = along_paths(&Json::read(root, &format!("{INPUTS}/score_cycling.json"))?)?;
     let meaning = "rms errors of the law of spheres along paths of ten cycles, of all packings, one fifth of which its training never \
@@ -44,7 +43,6 @@ pub fn section(root: &Path) -> Result<Section, DocsError> {
     let meaning = "rms errors of the law of spheres along the paths of beds that were poured, of all packings, \
                    most of which its training saw";
     section.add_table("spheres-law-poured", meaning, "msdd score", &ALONG_COLUMNS, poured);
-    spheres_parts(&mut section, &Json::read(root, &format!("{INPUTS}/ablation_spheres.json"))?)?;
     let columns = ["model", "porosity increment", "fabric increment", "conductivity", "stress"];
     let meaning = "coefficient of determination of one step on packings that training never saw";
     section.add_table("surrogate-one-step", meaning, "msdd score", &columns, one_step_rows);
@@ -245,33 +243,6 @@ fn spheres(section: &mut Section, scores: &Json) -> Result<(), DocsError> {
     Ok(())
 }
 
-/// The law of spheres without each of its parts, and the time that it takes.
-fn spheres_parts(section: &mut Section, ablation: &Json) -> Result<(), DocsError> {
-    let mut rows = Vec::new();
-    for line in ablation.list("/lines")? {
-        let name = line.text("/without").map_or("whole law".to_string(), |part| format!("without {part}"));
-        let mut row = vec![name, grouped(line.number("/numbers")?)];
-        for error in ALONG {
-            row.push(decimals(100.0 * line.number(&format!("/along/{error}"))?, 1));
-        }
-        rows.push(row);
-    }
-    let columns =
-        ["law", "fitted numbers", "pressure [%]", "deviator [%]", "K by contacts [%]", "K by gas [%]"];
-    let meaning = "rms errors along paths, means over the kinds of path, of the law of spheres fitted without each of its parts to a third \
-                   of the packings";
-    section.add_table("spheres-law-parts", meaning, "msdd ablation --spheres", &columns, rows);
-    let time = decimals(ablation.number("/nanoseconds")?, 0);
-    section.number(
-        "spheres.nanoseconds",
-        time,
-        "ns",
-        "an increment of the law of spheres",
-        "msdd ablation --spheres",
-    );
-    Ok(())
-}
-
 /// Small strains that were tried on the way.
 fn probes(section: &mut Section, score: &Json) -> Result<(), DocsError> {
     let mut rows = Vec::new();
@@ -294,42 +265,5 @@ fn probes(section: &mut Section, score: &Json) -> Result<(), DocsError> {
     let meaning = "stiffness against small strains tried on paths of packings that training never saw, over that of the discs, less 1; \
                    of all stiffnesses the rms error over the mean of xx by xx and yy by yy";
     section.add_table("surrogate-probes", meaning, "msdd score", &columns, rows);
-    Ok(())
-}
-
-/// Amplitude of the closed cycles of the table.
-const AMPLITUDE: f64 = 1e-3;
-
-/// The classical and the learned form of the law: means over the kinds of paths, and closed cycles.
-fn forms(section: &mut Section, score: &Json) -> Result<(), DocsError> {
-    let mut rows = Vec::new();
-    for form in score.list("/forms")? {
-        let kinds = form.list("/paths")?;
-        let mut row = vec![form.text("/name")?, grouped(form.number("/numbers")?)];
-        for name in ["pressure", "deviator", "conductivity"] {
-            let all = kinds.iter().map(|kind| kind.number(&format!("/{name}")));
-            let sum: f64 = all.sum::<Result<f64, _>>()?;
-            row.push(decimals(100.0 * sum / kinds.len() as f64, 1));
-        }
-        let cycles = form
-            .find("/cycles", "cycles up to 0.1 %", |cycles| cycles.maybe("/amplitude") == Some(AMPLITUDE))?;
-        for (name, digits) in [("creating", 1), ("drift", 2)] {
-            row.push(decimals(100.0 * cycles.number(&format!("/{name}"))?, digits));
-        }
-        rows.push(row);
-    }
-    let columns = [
-        "form",
-        "fitted numbers",
-        "pressure [%]",
-        "deviator [%]",
-        "K [%]",
-        "cycles that create energy [%]",
-        "drift of the pressure [%]",
-    ];
-    let meaning = "forms of the law on packings that training never saw: rms errors, means over all kinds of paths and sizes of boxes; \
-                   and after 30 repeats of random closed cycles of strain up to 0.1 %, share of the cycles that give energy, and rms \
-                   of the change of the pressure";
-    section.add_table("surrogate-forms", meaning, "msdd ablation --forms", &columns, rows);
     Ok(())
 }

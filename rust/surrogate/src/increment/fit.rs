@@ -99,8 +99,6 @@ const _: () = assert!(ELEMENTS == 2);
 pub struct PathFit<'a> {
     pub tracks: &'a [Track],
     pub threads: usize,
-    /// Parameters that keep a value, by number.
-    pub fixed: &'a [(usize, f64)],
 }
 
 impl PathFit<'_> {
@@ -151,14 +149,9 @@ impl LeastSquares for PathFit<'_> {
         let here = &found[2 * PARAMETERS];
         let mut matrix = DMatrix::zeros(PARAMETERS, PARAMETERS);
         let mut gradient = DVector::zeros(PARAMETERS);
-        let mut row = [0.0; PARAMETERS];
-        let fixed = |k: usize| self.fixed.iter().any(|(number, _)| *number == k);
         for (n, &residual) in here.iter().enumerate() {
-            for k in 0..PARAMETERS {
-                // A fixed parameter has no influence, and so does not move.
-                row[k] =
-                    if fixed(k) { 0.0 } else { (found[2 * k][n] - found[2 * k + 1][n]) / (2.0 * steps[k]) };
-            }
+            let row: [f64; PARAMETERS] =
+                std::array::from_fn(|k| (found[2 * k][n] - found[2 * k + 1][n]) / (2.0 * steps[k]));
             let [weight, _] = robust(residual);
             for a in 0..PARAMETERS {
                 gradient[a] += weight * row[a] * residual;
@@ -200,8 +193,7 @@ fn add_residuals(track: &Track, found: &[[f64; 3]], residuals: &mut Vec<f64>) {
 /// Fits the law; `watch` is called with the number of the epoch and the mean square.
 pub fn fit(problem: &PathFit, epochs: u32, mut watch: impl FnMut(u32, f64)) -> (Law, Minimum) {
     let limits = Limits { max_epochs: epochs, gradient: 1e-10 };
-    let mut start = parameters(&beginning());
-    problem.fixed.iter().for_each(|(number, value)| start[*number] = *value);
+    let start = parameters(&beginning());
     let minimum = minimise(problem, start, limits, |epoch, _, square| {
         watch(epoch, square);
         ControlFlow::Continue(())

@@ -31,9 +31,7 @@
 pub mod core;
 pub mod errors;
 pub mod fit;
-pub mod forms;
 pub mod law;
-pub mod learned;
 pub mod mean;
 pub mod model;
 pub mod number;

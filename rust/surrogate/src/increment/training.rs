@@ -25,15 +25,6 @@ pub const USUAL_EPOCHS: u32 = 60;
 /// # Errors
 /// [`SurrogateError::Data`] for unusable data, [`SurrogateError::Option`] for unusable options.
 pub fn train(data: &TrainingData, options: &TrainingOptions) -> Result<IncrementModel, SurrogateError> {
-    train_without(data, options, &[])
-}
-
-/// As [`train`], with parameters that keep a value, by number.
-pub(crate) fn train_without(
-    data: &TrainingData,
-    options: &TrainingOptions,
-    fixed: &[(usize, f64)],
-) -> Result<IncrementModel, SurrogateError> {
     options.check()?;
     let held_out = data.split(options.seed)?.test;
     let (unseen, seen): (Vec<Track>, Vec<Track>) =
@@ -42,7 +33,7 @@ pub(crate) fn train_without(
         let text = "fewer than 100 states of periodic boxes, to which this kind of model is fitted";
         return Err(SurrogateError::Data(text.to_string()));
     }
-    let problem = PathFit { tracks: &seen, threads: options.threads_used(), fixed };
+    let problem = PathFit { tracks: &seen, threads: options.threads_used() };
     let (law, minimum) = fit(&problem, options.max_epochs, |_, _| ());
     let states = follow(&Core::of(law.clone()), &seen);
     let kinds = kinds(&seen);

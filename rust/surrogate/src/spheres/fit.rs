@@ -74,8 +74,6 @@ pub struct PathFit<'a> {
     pub threads: usize,
     /// How the number of contacts changes, by which the fabric turns.
     pub contacts: Contacts,
-    /// Parameters that keep a value, by number.
-    pub fixed: &'a [(usize, f64)],
 }
 
 impl PathFit<'_> {
@@ -151,16 +149,11 @@ impl LeastSquares for PathFit<'_> {
         let at: Vec<DVector<f64>> = sides.chain([x.clone()]).collect();
         let found = self.residuals_of(&at);
         let here = &found[2 * PARAMETERS];
-        let fixed: [bool; PARAMETERS] =
-            std::array::from_fn(|k| self.fixed.iter().any(|(number, _)| *number == k));
         let mut matrix = DMatrix::zeros(PARAMETERS, PARAMETERS);
         let mut gradient = DVector::zeros(PARAMETERS);
         for (n, &residual) in here.iter().enumerate() {
-            let row: [f64; PARAMETERS] = std::array::from_fn(|k| match fixed[k] {
-                // A fixed parameter has no influence, and so does not move.
-                true => 0.0,
-                false => (found[2 * k][n] - found[2 * k + 1][n]) / (2.0 * steps[k]),
-            });
+            let row: [f64; PARAMETERS] =
+                std::array::from_fn(|k| (found[2 * k][n] - found[2 * k + 1][n]) / (2.0 * steps[k]));
             let [weight, _] = robust(residual);
             for a in 0..PARAMETERS {
                 gradient[a] += weight * row[a] * residual;
@@ -176,8 +169,7 @@ impl LeastSquares for PathFit<'_> {
 
 /// Fits the law, from [`beginning`].
 pub fn fit(problem: &PathFit, epochs: u32) -> (Law, Minimum) {
-    let mut start = parameters(&beginning());
-    problem.fixed.iter().for_each(|(number, value)| start[*number] = *value);
+    let start = parameters(&beginning());
     let limits = Limits { max_epochs: epochs, gradient: 1e-10 };
     let minimum = minimise(problem, start, limits, |_, _, _| ControlFlow::Continue(()));
     (Law { contacts: problem.contacts, ..law(&minimum.parameters) }, minimum)

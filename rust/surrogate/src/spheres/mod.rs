@@ -46,7 +46,6 @@
 //! Fitted to periodic boxes of spheres with the friction 0.3 along paths of strain (`spheres.toml`, `cycles.toml` and `cycling.toml` in
 //! `cases/database`), and to beds that were poured (`cases/database/poured`).
 
-pub mod ablation;
 #[cfg(test)]
 mod block_tests;
 mod check;

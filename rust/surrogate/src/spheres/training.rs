@@ -31,18 +31,6 @@ pub fn is_held_out(packing: i64, seed: u64) -> bool {
 /// # Errors
 /// [`SurrogateError::Data`] for unusable data, [`SurrogateError::Option`] for unusable options.
 pub fn train(tracks: &[Track], options: &TrainingOptions) -> Result<SphereModel, SurrogateError> {
-    train_without(tracks, options, &[])
-}
-
-/// As [`train`], with parameters that keep a value, by number.
-///
-/// # Errors
-/// Those of [`train`].
-pub fn train_without(
-    tracks: &[Track],
-    options: &TrainingOptions,
-    fixed: &[(usize, f64)],
-) -> Result<SphereModel, SurrogateError> {
     options.check()?;
     let (unseen, seen): (Vec<Track>, Vec<Track>) =
         tracks.iter().cloned().partition(|track| is_held_out(track.packing, options.seed));
@@ -55,7 +43,7 @@ pub fn train_without(
         return Err(SurrogateError::Data(text.to_string()));
     }
     let contacts = contacts(&beginning(), &seen);
-    let problem = PathFit { tracks: &seen, threads: options.threads_used(), contacts, fixed };
+    let problem = PathFit { tracks: &seen, threads: options.threads_used(), contacts };
     let (mut law, minimum) = fit(&problem, options.max_epochs);
     law.fabric[1] = usual_fabric(&law, &seen);
     let readout = readout(&law, &seen);
@@ -64,7 +52,7 @@ pub fn train_without(
     let report = Report {
         packings: [packings(&seen), packings(&unseen)],
         paths: [seen.len(), unseen.len()],
-        parameters: PARAMETERS - fixed.len(),
+        parameters: PARAMETERS,
         epochs: minimum.epochs,
         mean_square: minimum.mean_square,
     };
