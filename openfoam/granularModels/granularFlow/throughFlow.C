@@ -15,6 +15,7 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "throughFlow.H"
+#include "foamVersions.H"
 #include "OFstream.H"
 #include "addToRunTimeSelectionTable.H"
 
@@ -191,7 +192,7 @@ Foam::granularFlows::through::heatNow() const
     all[gasToSolids] = walls.gasToSolids;
     all[bedToSolids] = walls.bedToSolids;
     Pstream::listCombineGather(all, plusEqOp<scalar>());
-    Pstream::listCombineScatter(all);
+    fromMaster(all);
     if (single_)
     {
         all[toBed] = all[entered] - all[left] - all[held] - all[gasToWall];

@@ -15,6 +15,7 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "throughFlow.H"
+#include "foamVersions.H"
 #include "mathematicalConstants.H"
 
 #include <cmath>
@@ -168,7 +169,7 @@ Foam::scalar Foam::granularFlows::through::rayleigh() const
         }
     }
     Pstream::listCombineGather(sum, plusEqOp<scalar>());
-    Pstream::listCombineScatter(sum);
+    fromMaster(sum);
     for (label i = 1; i < sum.size(); ++i)
     {
         sum[i] /= sum[0];
