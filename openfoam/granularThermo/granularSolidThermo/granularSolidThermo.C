@@ -273,7 +273,11 @@ void Foam::granularSolidThermo::setGradients()
 {
     for (fvPatchScalarField& patch : he_.boundaryFieldRef())
     {
-        const tmp<scalarField> gradient(patch.fvPatchScalarField::snGrad());
+        // From values: snGrad of newer versions asks the class of the patch
+        const tmp<scalarField> gradient
+        (
+            patch.patch().deltaCoeffs()*(patch - patch.patchInternalField())
+        );
         if (isA<gradientEnergyFvPatchScalarField>(patch))
         {
             refCast<gradientEnergyFvPatchScalarField>(patch).gradient() =
