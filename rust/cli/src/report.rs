@@ -4,7 +4,7 @@ use crate::error::CliError;
 use crate::progress::Progress;
 use clap::Args;
 use msdd_report::case::CaseReport;
-use msdd_report::jobs::cache::Cache;
+use msdd_report::jobs::cache::{Cache, programs};
 use msdd_report::jobs::execute::{Place, Stamp};
 use msdd_report::jobs::pool;
 use msdd_report::report::{Made, Report, make};
@@ -59,14 +59,19 @@ pub struct Arguments {
 
 pub fn run(arguments: &Arguments) -> Result<(), CliError> {
     let checkout = std::env::current_dir().map_err(|e| CliError::Message(format!("current folder: {e}")))?;
-    for needed in ["cases/reference/results", "openfoam/platforms/bin/msddFoam"] {
-        if !checkout.join(needed).exists() {
-            let text = format!("{needed} is missing: run scripts/report, in the checkout");
-            return Err(CliError::Message(text));
-        }
+    let missing = |needed: &Path| {
+        CliError::Message(format!("{} is missing: run scripts/report, in the checkout", needed.display()))
+    };
+    let reference = Path::new("cases/reference/results");
+    if !checkout.join(reference).exists() {
+        return Err(missing(reference));
+    }
+    let programs = programs(&checkout)?;
+    if let Some(program) = programs.first().filter(|program| !program.exists()) {
+        return Err(missing(program));
     }
     let targets = Targets::of(arguments)?;
-    let settings = settings(arguments, &checkout)?;
+    let settings = settings(arguments, &checkout, &programs)?;
     let mut progress: Option<(String, Progress)> = None;
     let mut watch = |what: &str, now: &pool::Progress| {
         if progress.as_ref().is_none_or(|(name, _)| name != what) {
@@ -176,7 +181,7 @@ fn judged(report: &Report) -> String {
     format!("{met} of {} targets of accuracy reached; {edges}", report.targets.len())
 }
 
-fn settings(arguments: &Arguments, checkout: &Path) -> Result<Settings, CliError> {
+fn settings(arguments: &Arguments, checkout: &Path, programs: &[PathBuf]) -> Result<Settings, CliError> {
     let msdd = std::env::current_exe().map_err(|e| CliError::Message(format!("path of msdd: {e}")))?;
     let cpu = processor();
     let cache = checkout.join(&arguments.cache);
@@ -184,7 +189,7 @@ fn settings(arguments: &Arguments, checkout: &Path) -> Result<Settings, CliError
     Ok(Settings {
         quick: arguments.quick,
         place: Place { checkout: checkout.to_path_buf(), msdd, work: cache.join("work"), stamp, lock: None },
-        cache: Cache::new(&cache, checkout, &cpu),
+        cache: Cache::new(&cache, checkout, &cpu, programs),
         at_a_time: arguments.jobs as usize,
         run: !arguments.draw,
     })

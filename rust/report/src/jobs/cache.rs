@@ -7,23 +7,50 @@ use crate::{ReportError, read_text, write_text};
 use sha2::{Digest, Sha256};
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
+use std::process::Command;
 use std::sync::Mutex;
 
 pub struct Cache {
     folder: PathBuf,
     checkout: PathBuf,
     cpu: String,
+    /// Files of the solver, as [`programs`] finds them.
+    programs: Vec<PathBuf>,
     /// Hashes of files and folders that were computed already; files do not change while a report is made.
     known: Mutex<HashMap<PathBuf, String>>,
 }
 
-/// Files that belong to `msddFoam`.
-const PROGRAMS: [&str; 3] = ["bin/msddFoam", "lib/libgranularModels.so", "lib/libgranularFunctionObjects.so"];
+/// Prints the files that belong to `msddFoam`, the program first, one a line.
+const PROGRAMS: &str = ". scripts/foam-env && printf '%s\\n' \"$FOAM_USER_APPBIN/msddFoam\" \
+    \"$FOAM_USER_LIBBIN\"/libgranular{Models,FunctionObjects}.so";
+
+/// The files of the solver that jobs run, the program first: of the OpenFOAM that `scripts/foam-env` takes. They need not exist.
+///
+/// # Errors
+/// [`ReportError::Start`] with what `scripts/foam-env` says.
+pub fn programs(checkout: &Path) -> Result<Vec<PathBuf>, ReportError> {
+    let failed = |problem: String| ReportError::Start { program: "scripts/foam-env".to_string(), problem };
+    let output = Command::new("bash")
+        .args(["-c", PROGRAMS])
+        .current_dir(checkout)
+        .output()
+        .map_err(|error| failed(error.to_string()))?;
+    if !output.status.success() {
+        return Err(failed(String::from_utf8_lossy(&output.stderr).trim().to_string()));
+    }
+    Ok(String::from_utf8_lossy(&output.stdout).lines().map(PathBuf::from).collect())
+}
 
 impl Cache {
-    pub fn new(folder: &Path, checkout: &Path, cpu: &str) -> Self {
+    pub fn new(folder: &Path, checkout: &Path, cpu: &str, programs: &[PathBuf]) -> Self {
         let known = Mutex::new(HashMap::new());
-        Self { folder: folder.to_path_buf(), checkout: checkout.to_path_buf(), cpu: cpu.to_string(), known }
+        Self {
+            folder: folder.to_path_buf(),
+            checkout: checkout.to_path_buf(),
+            cpu: cpu.to_string(),
+            programs: programs.to_vec(),
+            known,
+        }
     }
 
     /// The job's key: 64 hexadecimal digits.
@@ -85,14 +112,14 @@ impl Cache {
     }
 
     fn add_programs(&self, parts: &mut Vec<String>) -> Result<(), ReportError> {
-        for program in PROGRAMS {
-            parts.push(self.hash(&format!("openfoam/platforms/{program}"))?);
+        for program in &self.programs {
+            parts.push(self.hash(program)?);
         }
         Ok(())
     }
 
     /// Hash of a file, or of all files of a folder with their names, but without results and meshes.
-    fn hash(&self, path: &str) -> Result<String, ReportError> {
+    fn hash(&self, path: impl AsRef<Path>) -> Result<String, ReportError> {
         let path = self.checkout.join(path);
         if let Some(hash) = self.known.lock().ok().and_then(|known| known.get(&path).cloned()) {
             return Ok(hash);
@@ -167,10 +194,21 @@ mod tests {
     }
 
     #[test]
+    fn the_solver_is_that_of_the_shell() {
+        let checkout = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").canonicalize().unwrap();
+        let files = programs(&checkout).unwrap();
+        let names: Vec<_> = files.iter().map(|file| file.file_name().unwrap().to_str().unwrap()).collect();
+        assert_eq!(names, ["msddFoam", "libgranularModels.so", "libgranularFunctionObjects.so"]);
+        assert!(files.iter().all(|file| file.is_absolute()), "{files:?}");
+        let error = programs(&checkout.join("rust")).unwrap_err().to_string();
+        assert!(error.contains("cannot start scripts/foam-env"), "{error}");
+    }
+
+    #[test]
     fn a_result_is_found_again_until_what_decides_it_changes() {
         let folder = std::env::temp_dir().join(format!("msdd-report-cache-{}", std::process::id()));
         write_text(&folder.join("input/a"), "1").unwrap();
-        let cache = || Cache::new(&folder.join("cache"), &folder, "cpu");
+        let cache = || Cache::new(&folder.join("cache"), &folder, "cpu", &[]);
         let key = cache().key(&job(1)).unwrap();
         let record = Record {
             job: job(1),
@@ -192,7 +230,7 @@ mod tests {
         assert_eq!(cache().get(&key), Some(Record { cached: true, ..record }));
         assert_eq!(crate::jobs::pool::found(&cache(), &asked).unwrap().len(), 1);
         assert_ne!(cache().key(&job(2)).unwrap(), key);
-        assert_ne!(Cache::new(&folder, &folder, "other").key(&job(1)).unwrap(), key);
+        assert_ne!(Cache::new(&folder, &folder, "other", &[]).key(&job(1)).unwrap(), key);
         write_text(&folder.join("input/a"), "2").unwrap();
         assert_ne!(cache().key(&job(1)).unwrap(), key);
         write_text(&folder.join("cache").join(format!("{key}.json")), "{ half").unwrap();
