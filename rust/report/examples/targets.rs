@@ -4,7 +4,7 @@
 
 use msdd_reference::packings::Reference;
 use msdd_report::failures::cycles;
-use msdd_report::jobs::cache::Cache;
+use msdd_report::jobs::cache::{Cache, programs};
 use msdd_report::jobs::execute::{Place, Stamp};
 use msdd_report::jobs::pool::{self, Asked};
 use msdd_report::plan::{self, CHARTED};
@@ -16,6 +16,7 @@ fn main() {
     let checkout = std::env::current_dir().expect("a folder");
     let cache = checkout.join(".cache/targets");
     let stamp = Stamp { date: String::new(), commit: String::new(), cpu: "any".to_string() };
+    let programs = programs(&checkout).expect("scripts/foam-env");
     let settings = Settings {
         quick: false,
         place: Place {
@@ -25,7 +26,7 @@ fn main() {
             stamp,
             lock: None,
         },
-        cache: Cache::new(&cache, &checkout, "any"),
+        cache: Cache::new(&cache, &checkout, "any", &programs),
         at_a_time: 2,
         run: true,
     };

@@ -63,15 +63,15 @@ impl Cache {
             Job::Solver(solver) => {
                 let case = format!("cases/{}", solver.case);
                 for folder in ["0", "constant", "system"] {
-                    parts.push(self.hash(&format!("{case}/{folder}"))?);
+                    parts.push(self.hash(format!("{case}/{folder}"))?);
                 }
                 // A case without expansion includes the files of the case with expansion.
                 let whole = solver.case.trim_end_matches("star");
-                parts.push(self.hash(&format!("cases/{whole}/0"))?);
-                parts.push(self.hash(&format!("cases/{whole}/constant"))?);
+                parts.push(self.hash(format!("cases/{whole}/0"))?);
+                parts.push(self.hash(format!("cases/{whole}/constant"))?);
                 parts.push(self.hash("cases/common")?);
                 if solver.part != Part::Shipped {
-                    parts.push(self.hash(&format!("cases/reference/fields/seed{}", solver.seed))?);
+                    parts.push(self.hash(format!("cases/reference/fields/seed{}", solver.seed))?);
                 }
                 if let Some(source) = &solver.plugin {
                     parts.push(self.hash(source)?);
@@ -81,10 +81,10 @@ impl Cache {
             Job::Spheres(spheres) => {
                 let case = format!("cases/{}", spheres.case);
                 for folder in ["0", "constant", "system"] {
-                    parts.push(self.hash(&format!("{case}/{folder}"))?);
+                    parts.push(self.hash(format!("{case}/{folder}"))?);
                 }
                 if !spheres.compare.is_empty() {
-                    parts.push(self.hash(&format!("{case}/elements.csv"))?);
+                    parts.push(self.hash(format!("{case}/elements.csv"))?);
                 }
                 parts.push(self.hash("cases/common")?);
                 self.add_programs(&mut parts)?;
