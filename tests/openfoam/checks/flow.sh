@@ -196,8 +196,8 @@ doubts() { # beyond what the flow is valid for the log says so, with the number
 }
 upwards() { # gas that carries the grains, by the closed form of Ergun's drag
     local G e
-    G=$(awk 'BEGIN { A = 150*2e-5*0.36/0.4^3/4e-4; B = 1.75*0.6/0.4^3/0.02; w = 0.6*1999*9.81; printf "%.10g", (sqrt(A*A + 4*B*w) - A)/(2*B) }')
-    flow_case flow-lift 20 "massFlux $(awk "BEGIN { print 0.999*$G }"); gas constant; temperatures two; drag Ergun;
+    G=$(awk 'BEGIN { A = 150*2e-5*0.36/0.4^3/4e-4; B = 1.75*0.6/0.4^3/0.02; w = 0.6*1999*9.81; printf "%.15g", (sqrt(A*A + 4*B*w) - A)/(2*B) }')
+    flow_case flow-lift 20 "massFlux $(awk "BEGIN { printf \"%.15g\", 0.999*$G }"); gas constant; temperatures two; drag Ergun;
         constantGas { density 1; heatCapacity 1000; viscosity 2e-5; thermalConductivity 0.03; }" 'endTime 1; deltaT 1; writeInterval 1;' '' 2
     gravity_is '-9.81 0 0'
     logged msddFoam
