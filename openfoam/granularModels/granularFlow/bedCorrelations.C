@@ -83,12 +83,14 @@ static scalar liFinlayson(const state& s)
     return 0.17*std::pow(s.Re, 0.79);
 }
 
+// Fitted from Re_h of 1 (Erdim: 2) on; below that all of them tend to the law of
+// creeping flow by Kozeny and Carman
 static const correlation drags[] =
 {
-    {"Ergun", ergun, correlation::holdup, 1, 2300, 0, 1, 0, VGREAT, 0},
-    {"KTA", ktaDrag, correlation::holdup, 1, 1e5, 0.36, 0.42, 0, VGREAT, 0},
+    {"Ergun", ergun, correlation::holdup, 0, 2300, 0, 1, 0, VGREAT, 0},
+    {"KTA", ktaDrag, correlation::holdup, 0, 1e5, 0.36, 0.42, 0, VGREAT, 0},
     {
-        "ErdimAkgirayDemir", erdim, correlation::holdup, 2, 3582, 0.377, 0.47,
+        "ErdimAkgirayDemir", erdim, correlation::holdup, 0, 3582, 0.377, 0.47,
         0, VGREAT, 4
     }
 };

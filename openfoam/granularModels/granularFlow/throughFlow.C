@@ -15,9 +15,8 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "throughFlow.H"
-#include "foamVersions.H"
-#include "OFstream.H"
 #include "addToRunTimeSelectionTable.H"
+#include "foamVersions.H"
 
 // * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
 
@@ -27,180 +26,237 @@ namespace granularFlows
 {
     defineTypeNameAndDebug(through, 0);
     addToRunTimeSelectionTable(granularFlow, through, dictionary);
-
-    //- Error of the temperatures, over the largest, at which properties that
-    //- depend on them have settled
-    static const scalar settled = 1e-8;
-
-    //- Largest normalised residual of a solution
-    static const scalar mostResidual = 1e-11;
 }
 }
 
-// * * * * * * * * * * * * * * * * Destructor  * * * * * * * * * * * * * * * //
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
-Foam::granularFlows::through::~through()
-{}
+Foam::granularFlows::through::through
+(
+    const granularProperties& properties,
+    granularState& grains,
+    volScalarField& T
+)
+:
+    bedFlow
+    (
+        properties, grains, T, properties.subDict("throughCoeffs"), kindKeys
+    ),
+    unit_(flux_)
+{
+    ports_.append(readEnd("inlet"));
+    ports_.append(readEnd("outlet"));
+    findAxis();
+    findUnitFlux();
+    findFlow();
+    if (!active())
+    {
+        gasT_.writeOpt() = IOobject::NO_WRITE;
+        return;
+    }
+    Info<< "Flow of " << gas_.name() << " along " << axis_ << ", "
+        << gSum(mesh_.V())/area_ << " m through " << area_ << " m2, at most "
+        << largest_ << " kg/(m2 s)" << nl;
+    setG(largest_);
+    const port& from = ports_[ports_[0].temperature.valid() ? 0 : 1];
+    chooseTemperatures(from.temperature->value(grains.record().startTime));
+    findFlux();
+}
 
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-Foam::scalar Foam::granularFlows::through::inflow(const bool reversed) const
+Foam::autoPtr<Foam::granularFlows::bedFlow::port>
+Foam::granularFlows::through::readEnd(const word& key) const
 {
-    const port& from = reversed ? outlet_ : inlet_;
-    return from.temperature->value(mesh_.time().value());
+    const dictionary& dict = dict_.subDict(key);
+    endKeys.check(dict);
+    return readPort(dict.get<word>("patch"), dict);
 }
 
 
-Foam::scalar Foam::granularFlows::through::diameter(const label celli) const
+void Foam::granularFlows::through::findAxis()
 {
-    return
-        2*properties_.meanRadius().value()
-       *(
-            1
-          + properties_.thermalExpansion().value()
-           *(T_[celli] - grains_.initialTemperature()[celli])
-        );
-}
-
-
-Foam::bedCorrelations::state
-Foam::granularFlows::through::state(const label celli) const
-{
-    const scalar T = gasT_[celli], mu = gas_.viscosity(T);
-    return
+    const auto sumOf = [this](const label patchi)
     {
-        mag(G_)*diameter(celli)/mu,
-        grains_.porosity()[celli],
-        mu*gas_.capacity(T)/gas_.conductivity(T)
-    };
-}
-
-
-Foam::scalar Foam::granularFlows::through::coefficient
-(
-    const bedCorrelations::state& s,
-    const scalar k,
-    const scalar d,
-    const scalar solid
-) const
-{
-    return
-        constantExchange_
-      ? exchangeFactor_*exchangeCoefficient_
-      : 6*(1 - s.porosity)
-       /(d*(d/(exchangeFactor_*exchangeLaw_.value(s)*k) + d/(10*solid)));
-}
-
-
-Foam::scalar Foam::granularFlows::through::exchange(const label celli) const
-{
-    return coefficient
-    (
-        state(celli), gas_.conductivity(gasT_[celli]), diameter(celli),
-        properties_.conductivityFunction().value(T_[celli])
-    );
-}
-
-
-void Foam::granularFlows::through::update(const scalar tau)
-{
-    scalarField& H = exchange_.primitiveFieldRef();
-    scalarField& E = storage_.primitiveFieldRef();
-    scalarField& start = start_.primitiveFieldRef();
-    scalarField& along = diffusionAlong_.primitiveFieldRef();
-    scalarField& across = diffusionAcross_.primitiveFieldRef();
-    forAll(H, celli)
-    {
-        const scalar T = gasT_[celli], slope = gas_.storage(T);
-        H[celli] = exchange(celli);
-        E[celli] = pores_[celli]*slope/tau;
-        start[celli] = T - (gas_.stored(T) - stage_[celli])/slope;
-        const scalar carried = Gc(T);
-        const scalar d = carried*diameter(celli);
-        along[celli] = along_*d + (single_ ? sqr(carried)/H[celli] : 0);
-        across[celli] = across_*d;
-    }
-    if (coupled_)
-    {
-        T_.correctBoundaryConditions();
-        for
+        return returnReduce
         (
-            volScalarField* field :
-            {&exchange_, &storage_, &start_, &diffusionAlong_, &diffusionAcross_}
+            sum(mesh_.Sf().boundaryField()[patchi]), sumOp<vector>()
+        );
+    };
+    const port& inlet = ports_[0];
+    const port& outlet = ports_[1];
+    const vector S(sumOf(inlet.patch));
+    area_ = mag(S);
+    axis_ = -S/max(area_, VSMALL);
+    const scalar opposite = axis_ & sumOf(outlet.patch);
+    if (inlet.patch == outlet.patch || mag(opposite/area_ - 1) > mostTilt)
+    {
+        FatalIOErrorInFunction(dict_)
+            << "The outlet " << outlet.name << " has " << opposite
+            << " m2 across the flow and the inlet " << inlet.name << " has "
+            << area_ << " m2, allowed with flow through: the same, on opposite"
+            << " ends of the bed" << exit(FatalIOError);
+    }
+    forAll(mesh_.boundary(), patchi)
+    {
+        const fvPatch& patch = mesh_.boundary()[patchi];
+        if
+        (
+            patch.coupled() || patchi == inlet.patch || patchi == outlet.patch
+         || patch.type() == "empty"
         )
         {
-            field->correctBoundaryConditions();
+            continue;
         }
-    }
-    if (!walls_->empty())
-    {
-        walls_->update
-        (
-            tau,
-            [this](const label celli)
-            {
-                return
-                    bedCorrelations::wall().value(state(celli))
-                   *gas_.conductivity(gasT_[celli])/diameter(celli);
-            }
-        );
+        const vectorField& Sf = mesh_.Sf().boundaryField()[patchi];
+        scalar tilt = 0;
+        forAll(Sf, facei)
+        {
+            tilt = max(tilt, mag(Sf[facei] & axis_)/mag(Sf[facei]));
+        }
+        reduce(tilt, maxOp<scalar>());
+        if (tilt > mostTilt)
+        {
+            FatalErrorInFunction
+                << "Patch " << patch.name() << " is turned by a sine of " << tilt
+                << " from the axis " << axis_ << " of the flow from "
+                << inlet.name << " to " << outlet.name
+                << ", allowed with flow through: " << mostTilt
+                << ". The cross-section must be the same everywhere, and the"
+                << " points of the mesh written with at least 8 digits"
+                << " (writePrecision in system/controlDict)"
+                << exit(FatalError);
+        }
     }
 }
 
 
-const Foam::granularFlows::through::rates&
-Foam::granularFlows::through::heatNow() const
+void Foam::granularFlows::through::findUnitFlux()
 {
-    if (lastTau_ == 0)
+    forAll(unit_, facei)
     {
-        return last_;
+        unit_[facei] = unitFlux(mesh_.Sf()[facei]);
     }
-    scalarList all(heats, 0);
+    forAll(mesh_.boundary(), patchi)
+    {
+        const bool open =
+            mesh_.boundary()[patchi].coupled()
+         || patchi == ports_[0].patch || patchi == ports_[1].patch;
+        const vectorField& S = mesh_.Sf().boundaryField()[patchi];
+        scalarField& unit = unit_.boundaryFieldRef()[patchi];
+        forAll(unit, facei)
+        {
+            unit[facei] = open ? unitFlux(S[facei]) : 0;
+        }
+    }
+}
+
+
+void Foam::granularFlows::through::findFlow()
+{
+    const bool whole = dict_.found("massFlow");
+    if (whole == dict_.found("massFlux"))
+    {
+        FatalIOErrorInFunction(dict_)
+            << "Entries 'massFlow' and 'massFlux' are "
+            << (whole ? "both given" : "missing") << ", allowed: one of them"
+            << exit(FatalIOError);
+    }
+    flow_ = Function1<scalar>::New(whole ? "massFlow" : "massFlux", dict_);
+    perFlow_ = whole ? 1/area_ : 1;
+
+    for (const scalar t : looks())
+    {
+        const scalar flow = flow_->value(t);
+        largest_ = max(largest_, mag(perFlow_*flow));
+        if (flow != 0)
+        {
+            checkTemperature(ports_[flow > 0 ? 0 : 1], t, flow);
+        }
+    }
+}
+
+
+void Foam::granularFlows::through::setG(const scalar G)
+{
+    G_ = G;
+    flux_ = G*unit_;
+    massFlux_.primitiveFieldRef() = G*axis_;
+}
+
+
+void Foam::granularFlows::through::findFlux()
+{
+    setG(perFlow_*flow_->value(mesh_.time().value()));
+}
+
+
+// * * * * * * * * * * * * Protected Member Functions  * * * * * * * * * * * //
+
+Foam::scalar Foam::granularFlows::through::pressureDrop
+(
+    const scalar factor
+) const
+{
+    scalar sum = 0;
     const scalarField& V = mesh_.V();
     forAll(V, celli)
     {
-        all[toBed] += V[celli]*exchange_[celli]*(gasT_[celli] - T_[celli]);
-        all[held] +=
-            V[celli]*pores_[celli]/lastTau_
-           *(gas_.stored(gasT_[celli]) - stage_[celli]);
+        const scalar T = gasT_[celli];
+        sum +=
+            V[celli]*factor*dragOf(celli)
+           *(gas_.compressible() ? gas_.gasConstant()*T : 1/gas_.density(T, 0));
     }
-    if (G_ != 0)
+    sum = returnReduce(sum, sumOp<scalar>())/area_;
+    const scalar p = gas_.pressure();
+    return gas_.compressible() ? 2*sum/(p + std::sqrt(p*p + 2*sum)) : sum;
+}
+
+
+Foam::scalar Foam::granularFlows::through::rayleigh() const
+{
+    const scalar g = mag(properties_.gravity());
+    if (!gas_.compressible() || g == 0)
     {
-        const port& from = G_ > 0 ? inlet_ : outlet_;
-        const port& to = G_ > 0 ? outlet_ : inlet_;
-        const scalar h = gas_.enthalpy(inflow(G_ < 0));
-        for (const vector& S : mesh_.Sf().boundaryField()[from.patch])
-        {
-            all[entered] += mag(G_*(axis_ & S))*h;
-        }
-        const vectorField& S = mesh_.Sf().boundaryField()[to.patch];
-        const scalarField T(leavingTemperature(to.patch));
-        forAll(T, facei)
-        {
-            const scalar m = mag(G_*(axis_ & S[facei]));
-            all[left] += m*gas_.enthalpy(T[facei]);
-            all[mixed] += m*T[facei];
-            all[carried] += m;
-        }
+        return 0;
     }
-    const vesselWalls::rates walls(walls_->heat(gasT_, T_));
-    all[gasToWall] = walls.fromGas;
-    all[bedToWall] = walls.fromBed;
-    all[lost] = walls.lost;
-    all[heldByWall] = walls.stored;
-    all[gasToSolids] = walls.gasToSolids;
-    all[bedToSolids] = walls.bedToSolids;
-    Pstream::listCombineGather(all, plusEqOp<scalar>());
-    fromMaster(all);
-    if (single_)
+    // Straight line of the temperature over the height
+    const vector up(-properties_.gravity()/g);
+    const scalarField& V = mesh_.V();
+    const vectorField& C = mesh_.C();
+    scalarList sum(6, Zero);
+    forAll(V, celli)
     {
-        all[toBed] = all[entered] - all[left] - all[held] - all[gasToWall];
+        const scalar z = C[celli] & up, T = gasT_[celli];
+        const FixedList<scalar, 6> cell
+        ({
+            1, z, T, z*z, z*T, up & (conductivity(celli) & up)
+        });
+        forAll(sum, i)
+        {
+            sum[i] += V[celli]*cell[i];
+        }
     }
-    lastTau_ = 0;
-    last_.heat = all;
-    last_.outletT = all[carried] > 0 ? all[mixed]/all[carried] : 0;
-    return last_;
+    Pstream::listCombineGather(sum, plusEqOp<scalar>());
+    fromMaster(sum);
+    for (label i = 1; i < sum.size(); ++i)
+    {
+        sum[i] /= sum[0];
+    }
+    const scalar variance = sum[3] - sqr(sum[1]), T = sum[2], K = sum[5];
+    const scalar height = std::sqrt(12*variance);
+    const scalar colder =
+        -(sum[4] - sum[1]*T)/max(variance, VSMALL)*height;
+    // The permeability is that of the drag at rest
+    const scalar porosity = gSum(V*grains_.porosity())/sum[0];
+    const scalar d = 2*properties_.meanRadius().value();
+    const scalar permeability =
+        sqr(d/(1 - porosity))*pow3(porosity)
+       /(dragFactor_*drag_.value({0, porosity, 1}));
+    return
+        sqr(gas_.density(T, gas_.pressure()))*gas_.capacity(T)*g*colder/T
+       *permeability*height/(gas_.viscosity(T)*K);
 }
 
 
@@ -209,197 +265,7 @@ Foam::granularFlows::through::heatNow() const
 void Foam::granularFlows::through::addLoads(loadHistories& loads)
 {
     loads.add(flow_());
-    for (const port* each : {&inlet_, &outlet_})
-    {
-        if (each->temperature.valid())
-        {
-            loads.add(each->temperature());
-        }
-    }
-    walls_->addLoads(loads);
-}
-
-
-void Foam::granularFlows::through::extend(scalar& least, scalar& most) const
-{
-    for (const port* each : {&inlet_, &outlet_})
-    {
-        if (each->temperature.valid())
-        {
-            const scalar T = each->temperature->value(mesh_.time().value());
-            least = min(least, T);
-            most = max(most, T);
-        }
-    }
-}
-
-
-void Foam::granularFlows::through::begin()
-{
-    oldT_ = gasT_;
-    forAll(before_, celli)
-    {
-        before_[celli] = gas_.stored(oldT_[celli]);
-    }
-    stage_ = before_;
-    walls_->begin();
-    totalsBefore_ = grains_.record().flow;
-    again_ = false;
-}
-
-
-void Foam::granularFlows::through::restore()
-{
-    gasT_.primitiveFieldRef() = oldT_;
-    stage_ = before_;
-    walls_->restore();
-}
-
-
-void Foam::granularFlows::through::secondStage(const scalar share)
-{
-    first_ = heatNow();
-    forAll(stage_, celli)
-    {
-        stage_[celli] =
-            before_[celli]
-          + (1 - share)/share*(gas_.stored(gasT_[celli]) - before_[celli]);
-    }
-    walls_->secondStage(share);
-}
-
-
-void Foam::granularFlows::through::beginStage()
-{
-    ++stages_;
-    lastChange_ = 0;
-    G_ = perFlow_*flow_->value(mesh_.time().value());
-    bedThen_.primitiveFieldRef() = T_;
-    forAll(stage_, celli)
-    {
-        const scalar T = gasT_[celli];
-        startThen_[celli] =
-            T - (gas_.stored(T) - stage_[celli])/gas_.storage(T);
-    }
-    if (coupled_)
-    {
-        gasT_.correctBoundaryConditions();
-        bedThen_.correctBoundaryConditions();
-        startThen_.correctBoundaryConditions();
-    }
-    findSlopes(bedThen_, bedSlope_);
-    findSlopes(startThen_, startSlope_);
-}
-
-
-bool Foam::granularFlows::through::solve
-(
-    const fvScalarMatrix& bed,
-    const scalar tau,
-    const scalar tolerance
-)
-{
-    update(tau);
-    matrix_.clear();
-    addCells();
-    if (G_ != 0)
-    {
-        addFaces();
-        forAll(mesh_.boundary(), patchi)
-        {
-            if (mesh_.boundary()[patchi].coupled())
-            {
-                addBetween(patchi);
-            }
-        }
-        addEnds();
-    }
-    walls_->add(matrix_, single_);
-    addBed(bed);
-
-    twoFieldMatrix::pair x({gasT_.primitiveField(), T_.primitiveField()});
-    unsettled_ += !matrix_.solve(x, min(tolerance, mostResidual));
-    ++solutions_;
-    iterations_ += matrix_.iterations();
-
-    scalar change = 0, size = 0;
-    forAll(x.a, celli)
-    {
-        change = max(change, mag(x.a[celli] - gasT_[celli]));
-        change = max(change, mag(x.b[celli] - T_[celli]));
-        size = max(size, mag(x.b[celli]));
-    }
-    gasT_.primitiveFieldRef() = x.a;
-    T_.primitiveFieldRef() = x.b;
-    gasT_.correctBoundaryConditions();
-    T_.correctBoundaryConditions();
-    walls_->solve(gasT_, T_);
-    lastTau_ = tau;
-    if (solverPerformance::debug)
-    {
-        Info<< "twoFieldMatrix:  Solving for T and gasTemperature, residual = "
-            << matrix_.residual() << ", No Iterations "
-            << matrix_.iterations() << endl;
-    }
-    reduce(change, maxOp<scalar>());
-    reduce(size, maxOp<scalar>());
-    // What further solutions would change, by the ratio of the last two
-    const scalar ratio = lastChange_ > 0 ? change/lastChange_ : 1;
-    lastChange_ = change;
-    const scalar rest = ratio < 0.5 ? change*ratio/(1 - ratio) : change;
-    return linear_ || rest <= settled*size;
-}
-
-
-Foam::scalar Foam::granularFlows::through::heat() const
-{
-    const scalarList& now = heatNow().heat;
-    return
-        Pstream::master()
-      ? now[toBed] - now[bedToWall] + now[bedToSolids] : 0;
-}
-
-
-Foam::scalar Foam::granularFlows::through::toSolids() const
-{
-    return Pstream::master() ? heatNow().heat[gasToSolids] : 0;
-}
-
-
-void Foam::granularFlows::through::received(const scalar heat)
-{
-    heatNow();
-    last_.heat[toBed] = heat + last_.heat[bedToWall];
-}
-
-
-void Foam::granularFlows::through::reopen()
-{
-    grains_.record().flow = totalsBefore_;
-    again_ = true;
-}
-
-
-void Foam::granularFlows::through::finish
-(
-    const scalar deltaT,
-    const scalar share
-)
-{
-    const scalarList& last = heatNow().heat;
-    scalarList& all = grains_.record().flow;
-    scalarList step(heats);
-    forAll(step, i)
-    {
-        const scalar first = share < 1 ? first_.heat[i] : 0;
-        step[i] = deltaT*((1 - share)*first + share*last[i]);
-    }
-    for (label i = 0; i < passed; ++i)
-    {
-        all[i] += step[i];
-    }
-    all[passed] += mag(step[entered] - step[left]) + mag(step[toBed]);
-    observe();
+    bedFlow::addLoads(loads);
 }
 
 

@@ -25,7 +25,7 @@ namespace Foam
 
 const keyTable vesselWalls::keys
 (
-    "walls of throughCoeffs",
+    "walls of the flow",
     {
         {
             "heatCapacity",
@@ -118,7 +118,7 @@ void Foam::vesselWalls::read(const keyTable& keys, const dictionary& dict)
         if (!item.isDict() || patchi < 0)
         {
             FatalIOErrorInFunction(dict)
-                << "Entry '" << item.keyword() << "' of 'walls' of throughCoeffs"
+                << "Entry '" << item.keyword() << "' of 'walls' of the flow"
                 << " is no patch with braces, allowed: "
                 << granularProperties::listed(mesh_.boundaryMesh().names())
                   .c_str()
@@ -133,7 +133,7 @@ void Foam::vesselWalls::read(const keyTable& keys, const dictionary& dict)
             FatalErrorInFunction
                 << "Patch " << item.keyword() << " of T has the condition "
                 << bed.type() << ", allowed with an entry in 'walls' of"
-                << " throughCoeffs: zeroGradient, because the heat at the wall"
+                << " the flow: zeroGradient, because the heat at the wall"
                 << " follows from that entry, or granularContact"
                 << exit(FatalError);
         }
@@ -143,7 +143,7 @@ void Foam::vesselWalls::read(const keyTable& keys, const dictionary& dict)
             {
                 FatalIOErrorInFunction(of)
                     << "Entry '" << key << "' of the wall " << item.keyword()
-                    << " in 'walls' of throughCoeffs is given, allowed where T"
+                    << " in 'walls' of the flow is given, allowed where T"
                     << " has the condition granularContact: gasExchange alone,"
                     << " because the solid beside the bed has the rest"
                     << exit(FatalIOError);

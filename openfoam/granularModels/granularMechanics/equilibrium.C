@@ -175,6 +175,7 @@ Foam::granularMechanicsModels::equilibrium::equilibrium
     give_(u_),
     gravity_(properties.gravity()),
     weight_(u_),
+    volumeForce_(u_),
     start_(u_),
     nodeSize_(nodes_.size(), Zero),
     lastTime_(mesh_.time().value()),
@@ -326,9 +327,20 @@ void Foam::granularMechanicsModels::equilibrium::setWeight()
             << (r < 0 ? "the plane: along x and y" : "a wedge: along its axis")
             << exit(FatalError);
     }
+    addForce(gravity_*grains_.bulkDensity().primitiveField(), weight_);
+    volumeForce_ = weight_;
+}
+
+
+void Foam::granularMechanicsModels::equilibrium::addForce
+(
+    const vectorField& perVolume,
+    nodeField& force
+) const
+{
     // The cells are material and so keep their weight. In bodies of revolution
     // the nodes that are farther out bear more of it, as on rectangles
-    const scalarField& density = grains_.bulkDensity().primitiveField();
+    const label dim = nodes_.dim(), r = nodes_.radial();
     nodes_.each([&](const auto& e)
     {
         const scalar middle = nodes_.unfittedScale(e.cell, reference_);
@@ -341,13 +353,28 @@ void Foam::granularMechanicsModels::equilibrium::setWeight()
               : (nodes_.points()[2*node + r] + 2*middle)/(3*middle);
             for (label k = 0; k < dim; ++k)
             {
-                weight_[dim*node + k] +=
+                force[dim*node + k] +=
                     share*reference_.volume[e.cell]/e.size()
-                   *density[e.cell]*gravity_[k];
+                   *perVolume[e.cell][k];
             }
         }
     });
-    nodes_.sum(weight_);
+    nodes_.sum(force);
+}
+
+
+void Foam::granularMechanicsModels::equilibrium::setForce
+(
+    const vectorField& perVolume
+)
+{
+    if (perVolume.empty())
+    {
+        return;
+    }
+    volumeForce_ = 0;
+    addForce(perVolume, volumeForce_);
+    volumeForce_ += weight_;
 }
 
 

@@ -236,7 +236,7 @@ Foam::scalar Foam::granularMechanicsModels::equilibrium::imbalance
         law_->stress(), now, slip, traction_, friction_, newTraction_
     );
 
-    onWalls_ = friction_ + weight_ - inner;
+    onWalls_ = friction_ + volumeForce_ - inner;
     r_ = start_ + onWalls_;
     walls_.addShells(mesh_.time().value(), nodeField(u_ + du), r_);
     if (share_ < 1)

@@ -101,11 +101,16 @@ const Foam::keyTable Foam::granularProperties::grainKeys
         {
             "flow",
             "gas that flows through the bed. `through`: in one direction, with"
-            " the same mass flux over the cross-section, see below", "-",
-            "none, through", "none"
+            " the same mass flux over the cross-section. `pressure`: through any"
+            " openings, by pressure and buoyancy. See below", "-",
+            "none, through, pressure", "none"
         },
         {
             "throughCoeffs", "settings of `flow through`", "-", "a dictionary",
+            "required with it"
+        },
+        {
+            "pressureCoeffs", "settings of `flow pressure`", "-", "a dictionary",
             "required with it"
         },
         {

@@ -126,6 +126,17 @@ Foam::keyTable::range Foam::keyTable::limits
 }
 
 
+Foam::wordList Foam::keyTable::names() const
+{
+    wordList result;
+    for (const entry& each : entries_)
+    {
+        result.append(each.name);
+    }
+    return result;
+}
+
+
 bool Foam::keyTable::allows(const word& key, const scalar value) const
 {
     return limits(key, 1, -VGREAT).holds(value);

@@ -164,7 +164,10 @@ Foam::dictionary Foam::granularState::settings() const
             shown
             (
                 properties_.subOrEmptyDict(flow + "Coeffs"),
-                wordHashSet({"inlet", "outlet", "massFlow", "massFlux"})
+                wordHashSet
+                (
+                    {"inlet", "outlet", "massFlow", "massFlux", "openings"}
+                )
             )
         );
     }

@@ -38,9 +38,6 @@ static const scalar met = 1e-10;
 //- Solutions of a stage
 static const label mostSolutions = 60;
 
-//- Solutions that are combined to the next
-static const label mixed = 12;
-
 //- A change that is not below this share of the least of so many solutions ago
 //- is a rounding error, if it is at most this part of the largest temperature
 static const scalar falls = 0.5;
@@ -230,58 +227,6 @@ void Foam::neighbourSolids::setTemperatures(const scalarField& all)
 }
 
 
-Foam::scalarField Foam::neighbourSolids::mix
-(
-    const scalarField& from,
-    const scalarField& to
-)
-{
-    tried_.append(to);
-    changes_.append(scalarField(to - from));
-    if (tried_.size() > mixed)
-    {
-        for (label i = 1; i < tried_.size(); ++i)
-        {
-            tried_[i - 1].transfer(tried_[i]);
-            changes_[i - 1].transfer(changes_[i]);
-        }
-        tried_.resize(mixed);
-        changes_.resize(mixed);
-    }
-
-    // Differences from the last, made orthogonal one after the other, the
-    // latest first; one that hardly differs from those before says nothing
-    const label last = tried_.size() - 1;
-    scalarField next(to), left(changes_[last]);
-    PtrList<scalarField> directions, ways;
-    for (label i = last - 1; i >= 0; --i)
-    {
-        scalarField d(changes_[i] - changes_[last]);
-        scalarField way(tried_[i] - tried_[last]);
-        const scalar size = gSumSqr(d);
-        forAll(directions, k)
-        {
-            const scalar part = gSumProd(d, directions[k]);
-            d -= part*directions[k];
-            way -= part*ways[k];
-        }
-        const scalar rest = gSumSqr(d);
-        if (!(rest > 1e-16*size))
-        {
-            continue;
-        }
-        d /= std::sqrt(rest);
-        way /= std::sqrt(rest);
-        const scalar part = gSumProd(left, d);
-        left -= part*d;
-        next -= part*way;
-        directions.append(new scalarField(d));
-        ways.append(new scalarField(way));
-    }
-    return next;
-}
-
-
 Foam::scalar Foam::neighbourSolids::storedHeat()
 {
     scalar heat = 0;
@@ -366,8 +311,7 @@ void Foam::neighbourSolids::couple
         bed();
         return;
     }
-    tried_.clear();
-    changes_.clear();
+    mixing_.clear();
     ++stages_;
     scalar least = GREAT;
     label waited = 0;
@@ -393,7 +337,7 @@ void Foam::neighbourSolids::couple
             unconverged_ += !ends;
             return;
         }
-        from = mix(from, to);
+        from = mixing_.next(from, to);
         setTemperatures(from);
     }
 }

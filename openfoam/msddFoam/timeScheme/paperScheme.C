@@ -78,6 +78,7 @@ void Foam::timeSchemes::paper::step()
 
     stepWatch::doing("the mechanics");
     // Equilibrium of the resulting stress
+    mechanics_.setForce(heat_.flow().force()());
     mechanics_.solve(true);
 
     stepWatch::doing("the heat equation");

@@ -411,6 +411,7 @@ bool Foam::timeSchemes::secondOrder::settle
 )
 {
     stepWatch::doing("the mechanics");
+    mechanics_.setForce(heat_.flow().force()());
     if (lastAttempt || !mechanics_.canFail())
     {
         grains_.commitStrain();

@@ -28,9 +28,6 @@ two_temperatures() {
 }
 
 largest() { awk '{ e = $1 - $2; if (e < 0) e = -e; if (!(e <= w)) w = e } END { print (NR > 1 ? w + 0 : "nan") }'; } # |first - second| of lines
-of_summary() { sed -n "s/.*\"flow\": {.*\"$1\": \([^,}]*\).*/\1/p" postProcessing/msddFoam/summary.json; }
-flow_closes() { of_summary relative_difference; }
-heat_difference() { sed -n 's/.*"heat": {.*"relative_difference": \([^}]*\)}.*/\1/p' postProcessing/msddFoam/summary.json; }
 one_temperature() { # its error follows the law by which temperatures auto decides: the front in the middle of the bed
     local xi e
     for xi in 50 200; do
@@ -166,9 +163,6 @@ on_processes_and_restarted() {
         check "gas on $parts processes: temperatures differ by $e <= 1e-10" below "$e" 1e-10
     done
 }
-said() { # what, text: the log of the run says so
-    check "$1" grep -qF -- "$2" log
-}
 doubts() { # beyond what the flow is valid for the log says so, with the number
     local what entries conductivity e
     while IFS='|' read -r what entries conductivity; do
@@ -278,10 +272,10 @@ refusals() {
     done <<-'END'
 	Entries 'massFlow' and 'massFlux' are missing|s/massFlux 0.1;//
 	Entries 'massFlow' and 'massFlux' are both given|s/massFlux/massFlow 1; &/
-	Entry 'patch' of 'outlet' is nowhere|s/patch out/patch nowhere/
+	The patch of 'outlet' is nowhere|s/patch out/patch nowhere/
 	The outlet sides has|s/patch out/patch sides/
-	Entry 'temperature' of 'outlet' is missing|s/massFlux 0.1/massFlux table ((0 0.1) (10 -0.1))/
-	Entry 'temperature' of 'inlet' is -3|s/temperature 400/temperature -3/
+	Entry 'temperature' of the patch out is missing|s/massFlux 0.1/massFlux table ((0 0.1) (10 -0.1))/
+	Entry 'temperature' of the patch in is -3|s/temperature 400/temperature -3/
 	Entry 'drag' is 'Darcy'|s/massFlux/drag Darcy; &/
 	END
     flow_case flow-bad 10 'massFlux 0.1;' 'endTime 10; deltaT 10; writeInterval 1;' '' 2

@@ -14,7 +14,7 @@ License
     any later version. It comes without any warranty: see the file LICENSE.
 \*---------------------------------------------------------------------------*/
 
-#include "throughFlow.H"
+#include "bedFlow.H"
 #include "foamVersions.H"
 #include "mathematicalConstants.H"
 
@@ -50,7 +50,7 @@ static scalar missingInCore(const scalar widths)
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-void Foam::granularFlows::through::extremes::reduce()
+void Foam::granularFlows::bedFlow::extremes::reduce()
 {
     for (label* each : {&outsideDrag, &outsideExchange, &outsideGas})
     {
@@ -67,7 +67,7 @@ void Foam::granularFlows::through::extremes::reduce()
 }
 
 
-void Foam::granularFlows::through::extremes::extend(const extremes& now)
+void Foam::granularFlows::bedFlow::extremes::extend(const extremes& now)
 {
     outsideDrag = max(outsideDrag, now.outsideDrag);
     outsideExchange = max(outsideExchange, now.outsideExchange);
@@ -84,11 +84,11 @@ void Foam::granularFlows::through::extremes::extend(const extremes& now)
 }
 
 
-Foam::granularFlows::through::extremes
-Foam::granularFlows::through::extremesNow() const
+Foam::granularFlows::bedFlow::extremes
+Foam::granularFlows::bedFlow::extremesNow() const
 {
     extremes now;
-    const scalar up = -(properties_.gravity() & axis_)*sign(G_);
+    const vector& g = properties_.gravity();
     forAll(gasT_, celli)
     {
         const scalar T = gasT_[celli];
@@ -103,14 +103,14 @@ Foam::granularFlows::through::extremesNow() const
         now.mostRe = max(now.mostRe, s.Re);
         now.coldest = min(now.coldest, T);
         now.hottest = max(now.hottest, T);
-        const scalar p = gas_.pressure(), rho = gas_.density(T, p);
+        const scalar p = pressureIn(celli), rho = gas_.density(T, p);
         if (gas_.compressible())
         {
             const scalar c = gas_.capacity(T), R = gas_.gasConstant();
             now.mach = max
             (
                 now.mach,
-                mag(G_)/(rho*s.porosity*std::sqrt(c/(c - R)*R*T))
+                mag(massFlux_[celli])/(rho*s.porosity*std::sqrt(c/(c - R)*R*T))
             );
             const scalar path =
                 gas_.viscosity(T)/p
@@ -129,13 +129,17 @@ Foam::granularFlows::through::extremesNow() const
                /(2*properties_.conductivityFunction().value(T_[celli]))
             );
         }
-        if (up > 0)
+        const vector& G = massFlux_[celli];
+        if ((G & g) < 0)
         {
             now.lift = max
             (
                 now.lift,
-                dragOf(celli)/rho
-               /((1 - s.porosity)*(properties_.density().value() - rho)*up)
+               -dragOf(celli)/rho*(G & g)
+               /(
+                    mag(G)*magSqr(g)*(1 - s.porosity)
+                   *(properties_.density().value() - rho)
+                )
             );
         }
     }
@@ -144,57 +148,11 @@ Foam::granularFlows::through::extremesNow() const
 }
 
 
-Foam::scalar Foam::granularFlows::through::rayleigh() const
-{
-    const scalar g = mag(properties_.gravity());
-    if (!gas_.compressible() || g == 0)
-    {
-        return 0;
-    }
-    // Straight line of the temperature over the height
-    const vector up(-properties_.gravity()/g);
-    const scalarField& V = mesh_.V();
-    const vectorField& C = mesh_.C();
-    scalarList sum(6, Zero);
-    forAll(V, celli)
-    {
-        const scalar z = C[celli] & up, T = gasT_[celli];
-        const FixedList<scalar, 6> cell
-        ({
-            1, z, T, z*z, z*T, up & (conductivity(celli) & up)
-        });
-        forAll(sum, i)
-        {
-            sum[i] += V[celli]*cell[i];
-        }
-    }
-    Pstream::listCombineGather(sum, plusEqOp<scalar>());
-    fromMaster(sum);
-    for (label i = 1; i < sum.size(); ++i)
-    {
-        sum[i] /= sum[0];
-    }
-    const scalar variance = sum[3] - sqr(sum[1]), T = sum[2], K = sum[5];
-    const scalar height = std::sqrt(12*variance);
-    const scalar colder =
-        -(sum[4] - sum[1]*T)/max(variance, VSMALL)*height;
-    // The permeability is that of the drag at rest
-    const scalar porosity = gSum(V*grains_.porosity())/sum[0];
-    const scalar d = 2*properties_.meanRadius().value();
-    const scalar permeability =
-        sqr(d/(1 - porosity))*pow3(porosity)
-       /(dragFactor_*drag_.value({0, porosity, 1}));
-    return
-        sqr(gas_.density(T, gas_.pressure()))*gas_.capacity(T)*g*colder/T
-       *permeability*height/(gas_.viscosity(T)*K);
-}
-
-
-void Foam::granularFlows::through::observe()
+void Foam::granularFlows::bedFlow::observe()
 {
     drop_ = 0;
     extremes now;
-    if (G_ != 0)
+    if (flows())
     {
         now = extremesNow();
         drop_ = pressureDrop(1);
@@ -209,8 +167,7 @@ void Foam::granularFlows::through::observe()
     {
         FatalErrorInFunction
             << "The bed would lift at time " << mesh_.time().timeName()
-            << ": the gas flows upwards with "
-            << mag(G_) << " kg/(m2 s), and its pressure gradient is up to "
+            << ": the gas flows upwards, and its pressure gradient is up to "
             << now.lift << " times the weight of the grains, allowed: below 1"
             << exit(FatalError);
     }
@@ -237,16 +194,16 @@ void Foam::granularFlows::through::observe()
     met_.extend(now);
     if (solverPerformance::debug)
     {
-        Info<< "Flow: G " << G_ << " kg/(m2 s), outlet " << last_.outletT
+        Info<< "Flow: " << massFlow() << " kg/s, outlet " << last_.outletT
             << " K, pressure drop " << drop_ << " Pa" << nl;
     }
     writeLine();
 }
 
 
-Foam::scalar Foam::granularFlows::through::frontWidth() const
+Foam::scalar Foam::granularFlows::bedFlow::frontWidth() const
 {
-    if (G_ == 0)
+    if (inflow_ == 0)
     {
         return GREAT;
     }
@@ -254,7 +211,7 @@ Foam::scalar Foam::granularFlows::through::frontWidth() const
     const scalarField& V = mesh_.V();
     forAll(V, celli)
     {
-        const scalar c = Gc(gasT_[celli]);
+        const scalar c = Gc(celli);
         spread += V[celli]*(sqr(c)/exchange(celli) + along_*c*diameter(celli));
         stored += V[celli]*grains_.bulkDensity()[celli];
     }
@@ -265,7 +222,37 @@ Foam::scalar Foam::granularFlows::through::frontWidth() const
 }
 
 
-Foam::string Foam::granularFlows::through::rangeSentence() const
+Foam::scalar Foam::granularFlows::bedFlow::longestCell() const
+{
+    scalarField crossed(T_.size(), Zero);
+    forAll(flux_, facei)
+    {
+        crossed[mesh_.owner()[facei]] += 0.5*mag(flux_[facei]);
+        crossed[mesh_.neighbour()[facei]] += 0.5*mag(flux_[facei]);
+    }
+    forAll(flux_.boundaryField(), patchi)
+    {
+        const scalarField& m = flux_.boundaryField()[patchi];
+        const labelUList& cells = mesh_.boundary()[patchi].faceCells();
+        forAll(m, facei)
+        {
+            crossed[cells[facei]] += 0.5*mag(m[facei]);
+        }
+    }
+    scalar longest = 0;
+    forAll(crossed, celli)
+    {
+        longest = max
+        (
+            longest,
+            mesh_.V()[celli]*mag(massFlux_[celli])/max(crossed[celli], VSMALL)
+        );
+    }
+    return returnReduce(longest, maxOp<scalar>());
+}
+
+
+Foam::string Foam::granularFlows::bedFlow::rangeSentence() const
 {
     OStringStream os;
     os.precision(3);
@@ -314,7 +301,7 @@ Foam::string Foam::granularFlows::through::rangeSentence() const
             << " up to " << largestRayleigh_ << ", allowed: " << mostRayleigh
             << "; the gas would convect, which is left out.";
     }
-    const scalar error = singleGas/std::sqrt(xi_);
+    const scalar error = xi_ > 0 ? singleGas/std::sqrt(xi_) : 0;
     const scalar accuracy = keys.number(dict_, "accuracy");
     if (single_ && error > accuracy && many(true))
     {
@@ -330,10 +317,10 @@ Foam::string Foam::granularFlows::through::rangeSentence() const
             << 100*missing << " % less gas than computed (Di Felice and"
             << " Gibilaro), allowed: " << 100*mostMissing << " %.";
     }
-    const scalar width = frontWidth();
-    if (longestCell_ > width && many(true))
+    const scalar width = frontWidth(), longest = longestCell();
+    if (longest > width && many(true))
     {
-        os  << "Flow: cells are up to " << longestCell_
+        os  << "Flow: cells are up to " << longest
             << " m long, and a front is " << width
             << " m wide at the end; cells of this size would resolve it.";
     }

@@ -14,7 +14,7 @@ License
     any later version. It comes without any warranty: see the file LICENSE.
 \*---------------------------------------------------------------------------*/
 
-#include "throughFlow.H"
+#include "bedFlow.H"
 
 #include <cmath>
 
@@ -55,12 +55,18 @@ static scalar limited
     return min(min(scalar(2), 2*r), share + (1 - share)*r);
 }
 
+//- Unit vector; 0 of a vector that is 0
+static vector unitVector(const vector& G)
+{
+    return G/max(mag(G), VSMALL);
+}
+
 } // End namespace Foam
 
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-void Foam::granularFlows::through::findSlopes
+void Foam::granularFlows::bedFlow::findSlopes
 (
     const volScalarField& field,
     volScalarField& slope
@@ -82,12 +88,16 @@ void Foam::granularFlows::through::findSlopes
     };
     forAll(owner, facei)
     {
-        const scalar m = G_*unitFlux_[facei];
+        const scalar m = flux_[facei];
         const label U = m > 0 ? owner[facei] : neighbour[facei];
         const label D = m > 0 ? neighbour[facei] : owner[facei];
         if (m != 0)
         {
-            add(D, mag(m), field[D] - field[U], mag((C[D] - C[U]) & axis_));
+            add
+            (
+                D, mag(m), field[D] - field[U],
+                mag((C[D] - C[U]) & unitVector(massFlux_[D]))
+            );
         }
     }
     forAll(mesh_.boundary(), patchi)
@@ -97,7 +107,6 @@ void Foam::granularFlows::through::findSlopes
         {
             continue;
         }
-        const vectorField& S = mesh_.Sf().boundaryField()[patchi];
         const vectorField delta(patch.delta());
         const scalarField beyond
         (
@@ -106,34 +115,35 @@ void Foam::granularFlows::through::findSlopes
         const labelUList& cells = patch.faceCells();
         forAll(cells, facei)
         {
-            const scalar m = G_*unitFlux(S[facei]);
+            const scalar m = flux_.boundaryField()[patchi][facei];
             if (m < 0)
             {
                 add
                 (
                     cells[facei], -m, field[cells[facei]] - beyond[facei],
-                    mag(delta[facei] & axis_)
+                    mag(delta[facei] & unitVector(massFlux_[cells[facei]]))
                 );
             }
         }
     }
     // In the first cells the gas that enters is what lies upstream
     atInlet_.primitiveFieldRef() = 0;
-    if (G_ != 0)
+    for (const port& each : ports_)
     {
-        const label patchi = (G_ > 0 ? inlet_ : outlet_).patch;
-        const scalar T = inflow(G_ < 0);
-        const vectorField& S = mesh_.Sf().boundaryField()[patchi];
-        const vectorField& Cf = mesh_.Cf().boundaryField()[patchi];
-        forAll(S, facei)
+        const scalarField& m = flux_.boundaryField()[each.patch];
+        const vectorField& Cf = mesh_.Cf().boundaryField()[each.patch];
+        forAll(m, facei)
         {
-            const label P = mesh_.boundary()[patchi].faceCells()[facei];
-            atInlet_[P] = 1;
-            add
-            (
-                P, mag(G_*(axis_ & S[facei])), field[P] - T,
-                mag((C[P] - Cf[facei]) & axis_)
-            );
+            if (m[facei] < 0)
+            {
+                const label P = mesh_.boundary()[each.patch].faceCells()[facei];
+                atInlet_[P] = 1;
+                add
+                (
+                    P, -m[facei], field[P] - temperatureAt(each),
+                    mag((C[P] - Cf[facei]) & unitVector(massFlux_[P]))
+                );
+            }
         }
     }
     forAll(slope, celli)
@@ -149,20 +159,20 @@ void Foam::granularFlows::through::findSlopes
 }
 
 
-Foam::granularFlows::through::cellValues
-Foam::granularFlows::through::valuesOf(const label P) const
+Foam::granularFlows::bedFlow::cellValues
+Foam::granularFlows::bedFlow::valuesOf(const label P) const
 {
     return
     {
         exchange_[P], storage_[P], start_[P], gasT_[P], T_[P],
         bedThen_[P], startThen_[P], bedSlope_[P], startSlope_[P],
-        diffusionAlong_[P], diffusionAcross_[P], atInlet_[P]
+        diffusionAlong_[P], diffusionAcross_[P], atInlet_[P], massFlux_[P]
     };
 }
 
 
-Foam::List<Foam::granularFlows::through::cellValues>
-Foam::granularFlows::through::valuesBeyond(const label patchi) const
+Foam::List<Foam::granularFlows::bedFlow::cellValues>
+Foam::granularFlows::bedFlow::valuesBeyond(const label patchi) const
 {
     const auto beyond = [patchi](const volScalarField& field)
     {
@@ -176,6 +186,10 @@ Foam::granularFlows::through::valuesBeyond(const label patchi) const
     const scalarField along(beyond(diffusionAlong_));
     const scalarField across(beyond(diffusionAcross_));
     const scalarField atInlet(beyond(atInlet_));
+    const vectorField G
+    (
+        massFlux_.boundaryField()[patchi].patchNeighbourField()
+    );
     List<cellValues> result(gas.size());
     forAll(result, i)
     {
@@ -183,15 +197,15 @@ Foam::granularFlows::through::valuesBeyond(const label patchi) const
         {
             exchange[i], storage[i], start[i], gas[i], bed[i], bedThen[i],
             startThen[i], bedSlope[i], startSlope[i], along[i], across[i],
-            atInlet[i]
+            atInlet[i], G[i]
         };
     }
     return result;
 }
 
 
-Foam::granularFlows::through::weights
-Foam::granularFlows::through::reconstruct
+Foam::granularFlows::bedFlow::weights
+Foam::granularFlows::bedFlow::reconstruct
 (
     const cellValues& U,
     const cellValues* D,
@@ -199,7 +213,7 @@ Foam::granularFlows::through::reconstruct
     const scalar distance
 ) const
 {
-    const scalar carried = Gc(U.gas);
+    const scalar carried = mag(U.G)*gas_.capacity(U.gas);
     scalar b = 0, kappa = 0.5, bedShare = 1, share = 2.0/3;
     if (!single_)
     {
@@ -260,16 +274,19 @@ Foam::granularFlows::through::reconstruct
 }
 
 
-Foam::granularFlows::through::convection
-Foam::granularFlows::through::carry
+Foam::granularFlows::bedFlow::convection
+Foam::granularFlows::bedFlow::carry
 (
     const cellValues& U,
     const cellValues* D,
     const scalar flux,
-    const scalar length,
-    const scalar distance
+    const vector& toFace,
+    const vector& toD
 ) const
 {
+    const vector e(unitVector(U.G));
+    const scalar length = max(2*mag(toFace & e), VSMALL);
+    const scalar distance = max(mag(toD & e), VSMALL);
     convection result;
     result.w = reconstruct(U, D, length, distance);
     weights& w = result.w;
@@ -287,29 +304,18 @@ Foam::granularFlows::through::carry
 }
 
 
-Foam::tmp<Foam::scalarField>
-Foam::granularFlows::through::leavingTemperature(const label patchi) const
-{
-    const labelUList& cells = mesh_.boundary()[patchi].faceCells();
-    tmp<scalarField> result(new scalarField(cells.size()));
-    forAll(cells, facei)
-    {
-        result.ref()[facei] = leave(patchi, facei).T;
-    }
-    return result;
-}
-
-
-Foam::granularFlows::through::convection
-Foam::granularFlows::through::leave(const label patchi, const label facei) const
+Foam::granularFlows::bedFlow::convection
+Foam::granularFlows::bedFlow::leave(const label patchi, const label facei) const
 {
     const fvPatch& patch = mesh_.boundary()[patchi];
     const label P = patch.faceCells()[facei];
-    const scalar length =
-        2*mag((patch.Cf()[facei] - mesh_.C()[P]) & axis_);
-    const scalar m =
-        mag(G_*(axis_ & mesh_.Sf().boundaryField()[patchi][facei]));
-    return carry(valuesOf(P), nullptr, m, length, length);
+    const vector toFace(patch.Cf()[facei] - mesh_.C()[P]);
+    return carry
+    (
+        valuesOf(P), nullptr, mag(flux_.boundaryField()[patchi][facei]), toFace,
+        2*toFace
+    );
 }
+
 
 // ************************************************************************* //

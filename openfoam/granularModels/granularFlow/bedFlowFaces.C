@@ -14,11 +14,11 @@ License
     any later version. It comes without any warranty: see the file LICENSE.
 \*---------------------------------------------------------------------------*/
 
-#include "throughFlow.H"
+#include "bedFlow.H"
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-void Foam::granularFlows::through::addCells()
+void Foam::granularFlows::bedFlow::addCells()
 {
     const scalarField& V = mesh_.V();
     scalarField& gas = matrix_.aa().matrix.diag();
@@ -29,7 +29,7 @@ void Foam::granularFlows::through::addCells()
         const scalar E = V[celli]*storage_[celli];
         // What a cell lacks of a balance of mass carries its own temperature
         const scalar T = gasT_[celli], c = gas_.capacity(T);
-        const scalar lack = G_*unbalanced_[celli]*c;
+        const scalar lack = unbalanced_[celli]*c;
         const scalar source =
             E*start_[celli] + lack*(gas_.enthalpy(T)/c - T);
         gas[celli] = H + (single_ ? 0 : E - lack);
@@ -41,7 +41,7 @@ void Foam::granularFlows::through::addCells()
 }
 
 
-void Foam::granularFlows::through::addFaces()
+void Foam::granularFlows::bedFlow::addFaces()
 {
     const labelUList& owner = mesh_.owner();
     const labelUList& neighbour = mesh_.neighbour();
@@ -57,20 +57,16 @@ void Foam::granularFlows::through::addFaces()
     forAll(owner, facei)
     {
         const label P = owner[facei], N = neighbour[facei];
-        const scalar m = G_*unitFlux_[facei];
+        const scalar m = flux_[facei];
         const bool forward = m > 0;
         const label U = forward ? P : N, D = forward ? N : P;
-        const scalar cosine = (axis_ & Sf[facei])/magSf[facei];
-        const scalar w = weight[facei];
-        const auto onFace = [&](const volScalarField& field)
-        {
-            return w*field[P] + (1 - w)*field[N];
-        };
+        const cellValues p(valuesOf(P)), n(valuesOf(N));
+        const cellValues& u = forward ? p : n;
+        const cellValues& d = forward ? n : p;
+        const vector normal(Sf[facei]/magSf[facei]);
         const scalar k =
-            (
-                sqr(cosine)*onFace(diffusionAlong_)
-              + (1 - sqr(cosine))*onFace(diffusionAcross_)
-            )*magSf[facei]*delta[facei];
+            (weight[facei]*p.through(normal) + (1 - weight[facei])*n.through(normal))
+           *magSf[facei]*delta[facei];
         gas.diag()[P] += k;
         gas.diag()[N] += k;
         gas.upper()[facei] -= k;
@@ -79,14 +75,9 @@ void Foam::granularFlows::through::addFaces()
         {
             continue;
         }
-        const cellValues u(valuesOf(U)), d(valuesOf(D));
         const weights c
         (
-            carry
-            (
-                u, &d, mag(m), 2*mag((Cf[facei] - C[U]) & axis_),
-                max(mag((C[D] - C[U]) & axis_), VSMALL)
-            ).w
+            carry(u, &d, mag(m), Cf[facei] - C[U], C[D] - C[U]).w
         );
         // upper: row of the owner
         scalarField& ofU = forward ? gas.upper() : gas.lower();
@@ -107,7 +98,7 @@ void Foam::granularFlows::through::addFaces()
 }
 
 
-void Foam::granularFlows::through::addBetween(const label patchi)
+void Foam::granularFlows::bedFlow::addBetween(const label patchi)
 {
     const fvPatch& patch = mesh_.boundary()[patchi];
     const labelUList& cells = patch.faceCells();
@@ -128,30 +119,27 @@ void Foam::granularFlows::through::addBetween(const label patchi)
         const label P = cells[facei];
         const cellValues here(valuesOf(P));
         const cellValues& there = beyond[facei];
-        const scalar cosine = (axis_ & Sf[facei])/magSf[facei];
-        const scalar w = weight[facei];
+        const vector normal(Sf[facei]/magSf[facei]);
         const scalar k =
             (
-                sqr(cosine)*(w*here.along + (1 - w)*there.along)
-              + (1 - sqr(cosine))*(w*here.across + (1 - w)*there.across)
+                weight[facei]*here.through(normal)
+              + (1 - weight[facei])*there.through(normal)
             )*magSf[facei]*delta[facei];
         gas.matrix.diag()[P] += k;
         gas.between[patchi][facei] += k;
-        const scalar m = G_*unitFlux(Sf[facei]);
+        const scalar m = flux_.boundaryField()[patchi][facei];
         if (m == 0)
         {
             continue;
         }
         const bool leaves = m > 0;
-        const scalar distance = max(mag(toN[facei] & axis_), VSMALL);
-        const scalar mine = 2*mag((Cf[facei] - C[P]) & axis_);
-        const scalar length = leaves ? mine : 2*distance - mine;
+        const vector mine(Cf[facei] - C[P]);
         const weights c
         (
             carry
             (
-                leaves ? here : there, leaves ? &there : &here, mag(m), length,
-                distance
+                leaves ? here : there, leaves ? &there : &here, mag(m),
+                leaves ? mine : toN[facei] - mine, toN[facei]
             ).w
         );
         gas.matrix.diag()[P] += leaves ? c.gasU : -c.gasD;
@@ -163,32 +151,34 @@ void Foam::granularFlows::through::addBetween(const label patchi)
 }
 
 
-void Foam::granularFlows::through::addEnds()
+void Foam::granularFlows::bedFlow::addPorts()
 {
     scalarField& source = single_ ? matrix_.source().b : matrix_.source().a;
     scalarField& gas = (single_ ? matrix_.bb() : matrix_.aa()).matrix.diag();
-    const port& from = G_ > 0 ? inlet_ : outlet_;
-    const port& to = G_ > 0 ? outlet_ : inlet_;
-    const scalar h = gas_.enthalpy(inflow(G_ < 0));
-    const fvPatch& inflowing = mesh_.boundary()[from.patch];
-    const vectorField& S = mesh_.Sf().boundaryField()[from.patch];
-    forAll(S, facei)
+    for (const port& each : ports_)
     {
-        source[inflowing.faceCells()[facei]] += mag(G_*(axis_ & S[facei]))*h;
-    }
-    const labelUList& cells = mesh_.boundary()[to.patch].faceCells();
-    forAll(cells, facei)
-    {
-        const label P = cells[facei];
-        const weights c(leave(to.patch, facei).w);
-        gas[P] += c.gasU;
-        (single_ ? gas[P] : matrix_.ab()[P]) += c.bedU;
-        source[P] -= c.given;
+        const labelUList& cells = mesh_.boundary()[each.patch].faceCells();
+        const scalarField& m = flux_.boundaryField()[each.patch];
+        forAll(cells, facei)
+        {
+            const label P = cells[facei];
+            if (m[facei] < 0)
+            {
+                source[P] -= m[facei]*gas_.enthalpy(temperatureAt(each));
+            }
+            else if (m[facei] > 0)
+            {
+                const weights c(leave(each.patch, facei).w);
+                gas[P] += c.gasU;
+                (single_ ? gas[P] : matrix_.ab()[P]) += c.bedU;
+                source[P] -= c.given;
+            }
+        }
     }
 }
 
 
-void Foam::granularFlows::through::addBed(const fvScalarMatrix& bed)
+void Foam::granularFlows::bedFlow::addBed(const fvScalarMatrix& bed)
 {
     lduMatrix& matrix = matrix_.bb().matrix;
     scalarField& source = matrix_.source().b;

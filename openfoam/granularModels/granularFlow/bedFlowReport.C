@@ -14,7 +14,7 @@ License
     any later version. It comes without any warranty: see the file LICENSE.
 \*---------------------------------------------------------------------------*/
 
-#include "throughFlow.H"
+#include "bedFlow.H"
 #include "OFstream.H"
 #include "OSspecific.H"
 #include "functionObject.H"
@@ -37,8 +37,12 @@ static const keyTable flowColumns
 (
     "flow.dat",
     {
-        {"massFlux", "superficial mass flux, positive from inlet to outlet", "kg/(m2 s)"},
-        {"inletTemperature", "temperature of the gas that enters", "K"},
+        {
+            "massFlow",
+            "mass flow that enters the bed; with `flow through` negative from"
+            " outlet to inlet", "kg/s"
+        },
+        {"inletTemperature", "mixed temperature of the gas that enters", "K"},
         {"outletTemperature", "mixed temperature of the gas that leaves", "K"},
         {"pressureDrop", "pressure drop over the bed", "Pa"},
         {"heat", "heat that the gas gives to grains and vessel", "W"}
@@ -50,36 +54,33 @@ static const keyTable flowColumns
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-Foam::scalar Foam::granularFlows::through::pressureDrop
+Foam::scalar Foam::granularFlows::bedFlow::pressureDrop
 (
     const scalar factor
 ) const
 {
     scalar sum = 0;
-    const scalarField& V = mesh_.V();
-    forAll(V, celli)
+    forAll(gasT_, celli)
     {
-        const scalar T = gasT_[celli];
         sum +=
-            V[celli]*factor*dragOf(celli)
-           *(gas_.compressible() ? gas_.gasConstant()*T : 1/gas_.density(T, 0));
+            mesh_.V()[celli]*dragOf(celli)*mag(massFlux_[celli])
+           /gas_.density(gasT_[celli], pressureIn(celli));
     }
-    sum = returnReduce(sum, sumOp<scalar>())/area_;
-    const scalar p = gas_.pressure();
-    return gas_.compressible() ? 2*sum/(p + std::sqrt(p*p + 2*sum)) : sum;
+    reduce(sum, sumOp<scalar>());
+    return inflow_ > 0 ? factor*sum/inflow_ : 0;
 }
 
 
-Foam::scalar Foam::granularFlows::through::dragOf(const label celli) const
+Foam::scalar Foam::granularFlows::bedFlow::dragOf(const label celli) const
 {
     const bedCorrelations::state s(state(celli));
     return
-        dragFactor_*drag_.value(s)*gas_.viscosity(gasT_[celli])*mag(G_)
+        dragFactor_*drag_.value(s)*gas_.viscosity(gasT_[celli])*mag(massFlux_[celli])
        *sqr((1 - s.porosity)/diameter(celli))/pow3(s.porosity);
 }
 
 
-void Foam::granularFlows::through::writeLine()
+void Foam::granularFlows::bedFlow::writeLine()
 {
     if (!Pstream::master())
     {
@@ -106,8 +107,8 @@ void Foam::granularFlows::through::writeLine()
     }
     OStringStream row;
     row.precision(10);
-    row << mesh_.time().value() << tab << G_ << tab
-        << (G_ != 0 ? inflow(G_ < 0) : 0) << tab << last_.outletT << tab
+    row << mesh_.time().value() << tab << massFlow() << tab << last_.inletT
+        << tab << last_.outletT << tab
         << drop_ << tab << last_.heat[toBed] + last_.heat[gasToWall];
     std::string text(row.str());
     std::ostream& file = table_().stdStream();
@@ -122,7 +123,7 @@ void Foam::granularFlows::through::writeLine()
 }
 
 
-Foam::scalar Foam::granularFlows::through::difference() const
+Foam::scalar Foam::granularFlows::bedFlow::difference() const
 {
     const scalarList& all = grains_.record().flow;
     const scalar gas =
@@ -136,7 +137,7 @@ Foam::scalar Foam::granularFlows::through::difference() const
 }
 
 
-Foam::symmTensor Foam::granularFlows::through::conductivity
+Foam::symmTensor Foam::granularFlows::bedFlow::conductivity
 (
     const label celli
 ) const
@@ -154,9 +155,9 @@ Foam::symmTensor Foam::granularFlows::through::conductivity
 }
 
 
-Foam::string Foam::granularFlows::through::exchangeSentence() const
+Foam::string Foam::granularFlows::bedFlow::exchangeSentence() const
 {
-    if (G_ == 0 || constantExchange_)
+    if (inflow_ == 0 || constantExchange_)
     {
         return string();
     }
@@ -165,11 +166,12 @@ Foam::string Foam::granularFlows::through::exchangeSentence() const
     const scalarField& V = mesh_.V();
     forAll(V, celli)
     {
-        const scalar carried = Gc(gasT_[celli]);
+        const scalar carried = Gc(celli);
         const scalar spread = sqr(carried)/exchange(celli);
+        const vector e(massFlux_[celli]/max(mag(massFlux_[celli]), VSMALL));
         const scalar others =
-            along_*carried*diameter(celli) + (axis_ & (conductivity(celli) & axis_));
-        share += V[celli]*spread/(spread + others);
+            along_*carried*diameter(celli) + (e & (conductivity(celli) & e));
+        share += V[celli]*spread/max(spread + others, VSMALL);
     }
     share =
         returnReduce(share, sumOp<scalar>())
@@ -188,14 +190,14 @@ Foam::string Foam::granularFlows::through::exchangeSentence() const
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
-Foam::List<Foam::string> Foam::granularFlows::through::sentences() const
+Foam::List<Foam::string> Foam::granularFlows::bedFlow::sentences() const
 {
     const scalarList& all = grains_.record().flow;
     OStringStream flow, heat;
     flow.precision(4);
     flow<< "Flow: " << gas_.name() << ", Re " << min(met_.leastRe, met_.mostRe)
         << " to " << met_.mostRe;
-    if (G_ != 0)
+    if (inflow_ > 0)
     {
         const scalar e = bedCorrelations::dragError;
         flow<< "; at the end the gas leaves with " << last_.outletT
@@ -228,12 +230,15 @@ Foam::List<Foam::string> Foam::granularFlows::through::sentences() const
         << scalar(solutions_)/max(stages_, label(1)) << " solutions a stage, "
         << scalar(iterations_)/max(solutions_, label(1))
         << " iterations a solution.";
-    List<string> result({flow.str(), exchangeSentence(), rangeSentence(), heat.str()});
-    return result;
+    return List<string>
+    ({
+        flow.str(), sentenceOfKind(), exchangeSentence(), rangeSentence(),
+        heat.str()
+    });
 }
 
 
-Foam::string Foam::granularFlows::through::summary() const
+Foam::string Foam::granularFlows::bedFlow::summary() const
 {
     const scalarList& all = grains_.record().flow;
     const scalar e = bedCorrelations::dragError;
@@ -242,7 +247,7 @@ Foam::string Foam::granularFlows::through::summary() const
     os  << "{\"gas\": " << string(gas_.name())
         << ", \"temperatures\": " << (single_ ? 1 : 2)
         << ", \"transfer_units\": " << xi_
-        << ", \"mass_flux\": " << G_
+        << ", \"mass_flow\": " << massFlow()
         << ", \"outlet_temperature\": " << last_.outletT
         << ", \"pressure_drop\": " << drop_
         << ", \"pressure_drop_low\": " << pressureDrop(1 - e)
@@ -265,7 +270,8 @@ Foam::string Foam::granularFlows::through::summary() const
         << ", \"solutions_per_stage\": "
         << scalar(solutions_)/max(stages_, label(1))
         << ", \"iterations_per_solution\": "
-        << scalar(iterations_)/max(solutions_, label(1)) << "}";
+        << scalar(iterations_)/max(solutions_, label(1))
+        << summaryOfKind().c_str() << "}";
     return os.str();
 }
 

@@ -1,0 +1,477 @@
+/*---------------------------------------------------------------------------*\
+  =========                 |
+  \\      /  F ield         | MSDD: multiscale data-driven heat conduction
+   \\    /   O peration     |       in granular media
+    \\  /    A nd           | for OpenFOAM
+     \\/     M anipulation  |
+-------------------------------------------------------------------------------
+License
+    SPDX-License-Identifier: GPL-3.0-or-later
+
+    This program is free software: you can redistribute it and/or modify it
+    under the terms of the GNU General Public License as published by the Free
+    Software Foundation, either version 3 of the License, or (at your option)
+    any later version. It comes without any warranty: see the file LICENSE.
+\*---------------------------------------------------------------------------*/
+
+#include "bedFlow.H"
+#include "foamVersions.H"
+#include "OFstream.H"
+
+// * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
+
+namespace Foam
+{
+namespace granularFlows
+{
+    //- Error of the temperatures, over the largest, at which properties that
+    //- depend on them have settled
+    static const scalar settled = 1e-8;
+
+    //- Mass that enters a bed, over the largest flux of a face, below which the
+    //- bed is closed
+    static const scalar closed = 1e-9;
+
+    //- Largest normalised residual of a solution
+    static const scalar mostResidual = 1e-11;
+}
+}
+
+// * * * * * * * * * * * * * * * * Destructor  * * * * * * * * * * * * * * * //
+
+Foam::granularFlows::bedFlow::~bedFlow()
+{}
+
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+Foam::scalar Foam::granularFlows::bedFlow::temperatureAt
+(
+    const port& from
+) const
+{
+    return from.temperature->value(mesh_.time().value());
+}
+
+
+Foam::scalar Foam::granularFlows::bedFlow::diameter(const label celli) const
+{
+    return
+        2*properties_.meanRadius().value()
+       *(
+            1
+          + properties_.thermalExpansion().value()
+           *(T_[celli] - grains_.initialTemperature()[celli])
+        );
+}
+
+
+Foam::bedCorrelations::state
+Foam::granularFlows::bedFlow::state(const label celli) const
+{
+    const scalar T = gasT_[celli], mu = gas_.viscosity(T);
+    return
+    {
+        mag(massFlux_[celli])*diameter(celli)/mu,
+        grains_.porosity()[celli],
+        mu*gas_.capacity(T)/gas_.conductivity(T)
+    };
+}
+
+
+Foam::scalar Foam::granularFlows::bedFlow::coefficient
+(
+    const bedCorrelations::state& s,
+    const scalar k,
+    const scalar d,
+    const scalar solid
+) const
+{
+    return
+        constantExchange_
+      ? exchangeFactor_*exchangeCoefficient_
+      : 6*(1 - s.porosity)
+       /(d*(d/(exchangeFactor_*exchangeLaw_.value(s)*k) + d/(10*solid)));
+}
+
+
+Foam::scalar Foam::granularFlows::bedFlow::exchange(const label celli) const
+{
+    return coefficient
+    (
+        state(celli), gas_.conductivity(gasT_[celli]), diameter(celli),
+        properties_.conductivityFunction().value(T_[celli])
+    );
+}
+
+
+void Foam::granularFlows::bedFlow::setFlux()
+{
+    findFlux();
+    inflow_ = massThatEnters();
+    flows_ = gMax(mag(flux_.primitiveField())) > 0 || inflow_ > 0;
+    unbalanced_ = 0;
+    forAll(flux_, facei)
+    {
+        unbalanced_[mesh_.owner()[facei]] += flux_[facei];
+        unbalanced_[mesh_.neighbour()[facei]] -= flux_[facei];
+    }
+    forAll(flux_.boundaryField(), patchi)
+    {
+        const scalarField& m = flux_.boundaryField()[patchi];
+        const labelUList& cells = mesh_.boundary()[patchi].faceCells();
+        forAll(m, facei)
+        {
+            unbalanced_[cells[facei]] += m[facei];
+        }
+    }
+    if (coupled_)
+    {
+        massFlux_.correctBoundaryConditions();
+    }
+}
+
+
+Foam::scalar Foam::granularFlows::bedFlow::massThatEnters() const
+{
+    scalar sum = 0;
+    for (const port& each : ports_)
+    {
+        for (const scalar m : flux_.boundaryField()[each.patch])
+        {
+            sum -= min(m, scalar(0));
+        }
+    }
+    reduce(sum, sumOp<scalar>());
+    // Convection in a closed bed: what enters is the error of the fluxes
+    return
+        sum > closed*gMax(mag(flux_.primitiveField())) ? sum : 0;
+}
+
+
+void Foam::granularFlows::bedFlow::update(const scalar tau)
+{
+    scalarField& H = exchange_.primitiveFieldRef();
+    scalarField& E = storage_.primitiveFieldRef();
+    scalarField& start = start_.primitiveFieldRef();
+    scalarField& along = diffusionAlong_.primitiveFieldRef();
+    scalarField& across = diffusionAcross_.primitiveFieldRef();
+    forAll(H, celli)
+    {
+        const scalar T = gasT_[celli], slope = gas_.storage(T);
+        H[celli] = exchange(celli);
+        E[celli] = pores_[celli]*slope/tau;
+        start[celli] = T - (gas_.stored(T) - stage_[celli])/slope;
+        const scalar carried = Gc(celli);
+        const scalar d = carried*diameter(celli);
+        along[celli] = along_*d + (single_ ? sqr(carried)/H[celli] : 0);
+        across[celli] = across_*d;
+    }
+    if (coupled_)
+    {
+        T_.correctBoundaryConditions();
+        for
+        (
+            volScalarField* field :
+            {&exchange_, &storage_, &start_, &diffusionAlong_, &diffusionAcross_}
+        )
+        {
+            field->correctBoundaryConditions();
+        }
+    }
+    if (!walls_->empty())
+    {
+        walls_->update
+        (
+            tau,
+            [this](const label celli)
+            {
+                return
+                    bedCorrelations::wall().value(state(celli))
+                   *gas_.conductivity(gasT_[celli])/diameter(celli);
+            }
+        );
+    }
+}
+
+
+const Foam::granularFlows::bedFlow::rates&
+Foam::granularFlows::bedFlow::heatNow() const
+{
+    if (lastTau_ == 0)
+    {
+        return last_;
+    }
+    scalarList all(sums, Zero);
+    const scalarField& V = mesh_.V();
+    forAll(V, celli)
+    {
+        all[toBed] += V[celli]*exchange_[celli]*(gasT_[celli] - T_[celli]);
+        all[held] +=
+            V[celli]*pores_[celli]/lastTau_
+           *(gas_.stored(gasT_[celli]) - stage_[celli]);
+    }
+    for (const port& each : ports_)
+    {
+        const scalarField& m = flux_.boundaryField()[each.patch];
+        forAll(m, facei)
+        {
+            if (m[facei] < 0)
+            {
+                const scalar T = temperatureAt(each);
+                all[entered] -= m[facei]*gas_.enthalpy(T);
+                all[inward] -= m[facei];
+                all[mixedInward] -= m[facei]*T;
+            }
+            else if (m[facei] > 0)
+            {
+                const scalar T = leave(each.patch, facei).T;
+                all[left] += m[facei]*gas_.enthalpy(T);
+                all[outward] += m[facei];
+                all[mixedOutward] += m[facei]*T;
+            }
+        }
+    }
+    const vesselWalls::rates walls(walls_->heat(gasT_, T_));
+    all[gasToWall] = walls.fromGas;
+    all[bedToWall] = walls.fromBed;
+    all[lost] = walls.lost;
+    all[heldByWall] = walls.stored;
+    all[gasToSolids] = walls.gasToSolids;
+    all[bedToSolids] = walls.bedToSolids;
+    Pstream::listCombineGather(all, plusEqOp<scalar>());
+    fromMaster(all);
+    if (single_)
+    {
+        all[toBed] = all[entered] - all[left] - all[held] - all[gasToWall];
+    }
+    lastTau_ = 0;
+    last_.heat = all;
+    last_.inletT = all[inward] > 0 ? all[mixedInward]/all[inward] : 0;
+    last_.outletT = all[outward] > 0 ? all[mixedOutward]/all[outward] : 0;
+    return last_;
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+void Foam::granularFlows::bedFlow::addLoads(loadHistories& loads)
+{
+    for (const port& each : ports_)
+    {
+        if (each.temperature.valid())
+        {
+            loads.add(each.temperature());
+        }
+    }
+    walls_->addLoads(loads);
+}
+
+
+void Foam::granularFlows::bedFlow::extend(scalar& least, scalar& most) const
+{
+    for (const port& each : ports_)
+    {
+        if (each.temperature.valid())
+        {
+            const scalar T = temperatureAt(each);
+            least = min(least, T);
+            most = max(most, T);
+        }
+    }
+}
+
+
+void Foam::granularFlows::bedFlow::begin()
+{
+    oldT_ = gasT_;
+    forAll(before_, celli)
+    {
+        before_[celli] = gas_.stored(oldT_[celli]);
+    }
+    stage_ = before_;
+    walls_->begin();
+    totalsBefore_ = grains_.record().flow;
+    again_ = false;
+}
+
+
+void Foam::granularFlows::bedFlow::restore()
+{
+    gasT_.primitiveFieldRef() = oldT_;
+    stage_ = before_;
+    walls_->restore();
+}
+
+
+void Foam::granularFlows::bedFlow::secondStage(const scalar share)
+{
+    first_ = heatNow();
+    forAll(stage_, celli)
+    {
+        stage_[celli] =
+            before_[celli]
+          + (1 - share)/share*(gas_.stored(gasT_[celli]) - before_[celli]);
+    }
+    walls_->secondStage(share);
+}
+
+
+void Foam::granularFlows::bedFlow::beginStage()
+{
+    ++stages_;
+    lastChange_ = 0;
+    if (coupled_)
+    {
+        gasT_.correctBoundaryConditions();
+    }
+    setFlux();
+    bedThen_.primitiveFieldRef() = T_;
+    forAll(stage_, celli)
+    {
+        const scalar T = gasT_[celli];
+        startThen_[celli] =
+            T - (gas_.stored(T) - stage_[celli])/gas_.storage(T);
+    }
+    if (coupled_)
+    {
+        bedThen_.correctBoundaryConditions();
+        startThen_.correctBoundaryConditions();
+    }
+    findSlopes(bedThen_, bedSlope_);
+    findSlopes(startThen_, startSlope_);
+}
+
+
+bool Foam::granularFlows::bedFlow::solve
+(
+    const fvScalarMatrix& bed,
+    const scalar tau,
+    const scalar tolerance
+)
+{
+    if (fluxDependsOnT() && lastChange_ > 0)
+    {
+        setFlux();
+    }
+    update(tau);
+    matrix_.clear();
+    addCells();
+    if (flows())
+    {
+        addFaces();
+        forAll(mesh_.boundary(), patchi)
+        {
+            if (mesh_.boundary()[patchi].coupled())
+            {
+                addBetween(patchi);
+            }
+        }
+        addPorts();
+    }
+    walls_->add(matrix_, single_);
+    addBed(bed);
+
+    twoFieldMatrix::pair x({gasT_.primitiveField(), T_.primitiveField()});
+    unsettled_ += !matrix_.solve(x, min(tolerance, mostResidual));
+    ++solutions_;
+    iterations_ += matrix_.iterations();
+
+    scalar change = 0, size = 0;
+    forAll(x.a, celli)
+    {
+        change = max(change, mag(x.a[celli] - gasT_[celli]));
+        change = max(change, mag(x.b[celli] - T_[celli]));
+        size = max(size, mag(x.b[celli]));
+    }
+    gasT_.primitiveFieldRef() = x.a;
+    T_.primitiveFieldRef() = x.b;
+    gasT_.correctBoundaryConditions();
+    T_.correctBoundaryConditions();
+    walls_->solve(gasT_, T_);
+    lastTau_ = tau;
+    if (solverPerformance::debug)
+    {
+        Info<< "twoFieldMatrix:  Solving for T and gasTemperature, residual = "
+            << matrix_.residual() << ", No Iterations "
+            << matrix_.iterations() << endl;
+    }
+    reduce(change, maxOp<scalar>());
+    reduce(size, maxOp<scalar>());
+    // What further solutions would change, by the ratio of the last two
+    const scalar ratio = lastChange_ > 0 ? change/lastChange_ : 1;
+    lastChange_ = change;
+    const scalar rest = ratio < 0.5 ? change*ratio/(1 - ratio) : change;
+    return linear_ || rest <= settled*size;
+}
+
+
+Foam::scalar Foam::granularFlows::bedFlow::heat() const
+{
+    const scalarList& now = heatNow().heat;
+    return
+        Pstream::master()
+      ? now[toBed] - now[bedToWall] + now[bedToSolids] : 0;
+}
+
+
+Foam::tmp<Foam::vectorField> Foam::granularFlows::bedFlow::force() const
+{
+    tmp<vectorField> result(new vectorField(T_.size(), Zero));
+    const vector& g = properties_.gravity();
+    forAll(result(), celli)
+    {
+        const scalar rho = gas_.density(gasT_[celli], pressureIn(celli));
+        const vector& G = massFlux_[celli];
+        result.ref()[celli] =
+            dragOf(celli)/rho*G/max(mag(G), VSMALL)
+          - (1 - grains_.porosity()[celli])*rho*g;
+    }
+    return result;
+}
+
+
+Foam::scalar Foam::granularFlows::bedFlow::toSolids() const
+{
+    return Pstream::master() ? heatNow().heat[gasToSolids] : 0;
+}
+
+
+void Foam::granularFlows::bedFlow::received(const scalar heat)
+{
+    heatNow();
+    last_.heat[toBed] = heat + last_.heat[bedToWall];
+}
+
+
+void Foam::granularFlows::bedFlow::reopen()
+{
+    grains_.record().flow = totalsBefore_;
+    again_ = true;
+}
+
+
+void Foam::granularFlows::bedFlow::finish
+(
+    const scalar deltaT,
+    const scalar share
+)
+{
+    const scalarList& last = heatNow().heat;
+    scalarList& all = grains_.record().flow;
+    scalarList step(heats);
+    forAll(step, i)
+    {
+        const scalar first = share < 1 ? first_.heat[i] : 0;
+        step[i] = deltaT*((1 - share)*first + share*last[i]);
+    }
+    for (label i = 0; i < passed; ++i)
+    {
+        all[i] += step[i];
+    }
+    all[passed] += mag(step[entered] - step[left]) + mag(step[toBed]);
+    observe();
+}
+
+
+// ************************************************************************* //
