@@ -18,15 +18,17 @@ License
 #include "foamVersions.H"
 #include "OFstream.H"
 
+#include <cmath>
+
 // * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
 
 namespace Foam
 {
 namespace granularFlows
 {
-    //- Error of the temperatures, over the largest, at which properties that
-    //- depend on them have settled
-    static const scalar settled = 1e-8;
+    //- Error of the temperatures, over the largest, at which properties and
+    //- fluxes that depend on them have settled
+    static const scalar settled = 1e-8, settledFlux = 1e-9;
 
     //- Mass that enters a bed, over the largest flux of a face, below which the
     //- bed is closed
@@ -95,6 +97,21 @@ Foam::scalar Foam::granularFlows::bedFlow::coefficient
 }
 
 
+Foam::scalar Foam::granularFlows::bedFlow::stiffness(const label celli) const
+{
+    if (tau_ == 0)
+    {
+        return GREAT;
+    }
+    const scalar grains =
+        grains_.bulkDensity()[celli]*properties_.heatCapacity().value()/tau_;
+    const scalar size = std::cbrt(mesh_.V()[celli]);
+    return
+        storage_[celli] + Gc(celli)/size
+      + (single_ ? grains : 1/(1/exchange_[celli] + 1/grains));
+}
+
+
 Foam::scalar Foam::granularFlows::bedFlow::exchange(const label celli) const
 {
     return coefficient
@@ -105,9 +122,9 @@ Foam::scalar Foam::granularFlows::bedFlow::exchange(const label celli) const
 }
 
 
-void Foam::granularFlows::bedFlow::setFlux()
+void Foam::granularFlows::bedFlow::setFlux(const bool first)
 {
-    findFlux();
+    findFlux(first);
     inflow_ = massThatEnters();
     flows_ = gMax(mag(flux_.primitiveField())) > 0 || inflow_ > 0;
     unbalanced_ = 0;
@@ -151,6 +168,7 @@ Foam::scalar Foam::granularFlows::bedFlow::massThatEnters() const
 
 void Foam::granularFlows::bedFlow::update(const scalar tau)
 {
+    tau_ = tau;
     scalarField& H = exchange_.primitiveFieldRef();
     scalarField& E = storage_.primitiveFieldRef();
     scalarField& start = start_.primitiveFieldRef();
@@ -206,7 +224,10 @@ Foam::granularFlows::bedFlow::heatNow() const
     const scalarField& V = mesh_.V();
     forAll(V, celli)
     {
-        all[toBed] += V[celli]*exchange_[celli]*(gasT_[celli] - T_[celli]);
+        const scalar heat =
+            V[celli]*exchange_[celli]*(gasT_[celli] - T_[celli]);
+        all[toBed] += heat;
+        all[exchanged] += mag(heat);
         all[held] +=
             V[celli]*pores_[celli]/lastTau_
            *(gas_.stored(gasT_[celli]) - stage_[celli]);
@@ -321,11 +342,12 @@ void Foam::granularFlows::bedFlow::beginStage()
 {
     ++stages_;
     lastChange_ = 0;
+    lastRatio_ = 0;
     if (coupled_)
     {
         gasT_.correctBoundaryConditions();
     }
-    setFlux();
+    setFlux(true);
     bedThen_.primitiveFieldRef() = T_;
     forAll(stage_, celli)
     {
@@ -352,7 +374,7 @@ bool Foam::granularFlows::bedFlow::solve
 {
     if (fluxDependsOnT() && lastChange_ > 0)
     {
-        setFlux();
+        setFlux(false);
     }
     update(tau);
     matrix_.clear();
@@ -400,9 +422,12 @@ bool Foam::granularFlows::bedFlow::solve
     reduce(size, maxOp<scalar>());
     // What further solutions would change, by the ratio of the last two
     const scalar ratio = lastChange_ > 0 ? change/lastChange_ : 1;
+    lastRatio_ = lastChange_ > 0 ? ratio : 0;
     lastChange_ = change;
     const scalar rest = ratio < 0.5 ? change*ratio/(1 - ratio) : change;
-    return linear_ || rest <= settled*size;
+    return
+        linear_
+     || rest <= (fluxDependsOnT() ? settledFlux : settled)*size;
 }
 
 
@@ -469,7 +494,9 @@ void Foam::granularFlows::bedFlow::finish
     {
         all[i] += step[i];
     }
-    all[passed] += mag(step[entered] - step[left]) + mag(step[toBed]);
+    all[passed] +=
+        mag(step[entered] - step[left]) + max(step[exchanged], mag(step[toBed]))
+      + mag(step[bedToWall]);
     observe();
 }
 

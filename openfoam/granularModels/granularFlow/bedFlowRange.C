@@ -310,7 +310,7 @@ Foam::string Foam::granularFlows::bedFlow::rangeSentence() const
             << accuracy << " %; 'temperatures two' has none.";
     }
     const scalar missing = missingInCore(met_.widths);
-    if (missing > mostMissing && many(true))
+    if (inflow_ > 0 && missing > mostMissing && many(true))
     {
         os  << "Flow: the bed is " << met_.widths
             << " grains wide and looser at its walls; the core gets about "

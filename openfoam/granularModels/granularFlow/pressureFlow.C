@@ -35,7 +35,7 @@ namespace granularFlows
 
     //- Change of fluxes and psi, over the largest, at which they are solved,
     //- and the most iterations
-    static const scalar settled = 1e-11;
+    static const scalar settled = 1e-12;
     static const label mostNewton = 50;
 
     //- Share of the last change above which iterations are combined
@@ -76,6 +76,7 @@ Foam::granularFlows::pressure::pressure
     perFlux_(column("perFlux", mesh_)),
     porosity_(column("porosityOfFlow", mesh_)),
     weight_(column("weight", mesh_)),
+    buoyancy_(column("buoyancyOfFlow", mesh_)),
     gradient_
     (
         IOobject("psiGradient", mesh_.time().timeName(), mesh_), mesh_,
@@ -84,7 +85,8 @@ Foam::granularFlows::pressure::pressure
     ),
     fluxBefore_(flux_),
     present_("presentFlux", flux_),
-    slope_("slopeOfFlux", flux_)
+    slope_("slopeOfFlux", flux_),
+    thermal_("thermalFlux", flux_)
 {
     massFlux_.writeOpt() = IOobject::AUTO_WRITE;
     flux_.writeOpt() = IOobject::AUTO_WRITE;
@@ -117,10 +119,13 @@ Foam::granularFlows::pressure::pressure
     Time& time = const_cast<Time&>(mesh_.time());
     const scalar now = time.value();
     time.value() = busiest;
-    findFlux();
+    findFlux(true);
     Info<< "Flow of " << gas_.name() << " through " << openings_.size()
         << " openings, at most " << massThatEnters() << " kg/s" << nl;
-    chooseTemperatures(temperatureAt(ports_[0]));
+    chooseTemperatures
+    (
+        ports_.empty() ? gAverage(T.primitiveField()) : temperatureAt(ports_[0])
+    );
     time.value() = now;
     pressure::restore();
 }
@@ -195,7 +200,7 @@ void Foam::granularFlows::pressure::readOpenings()
         );
         made.height = (patch.Cf() - middle) & properties_.gravity();
     }
-    if (!given)
+    if (!given && openings_.size())
     {
         FatalIOErrorInFunction(all)
             << "Each of the " << openings_.size() << " openings has a massFlow,"
@@ -211,23 +216,23 @@ void Foam::granularFlows::pressure::checkParts() const
     boolList given(parts.nRegions(), false);
     forAll(openings_, i)
     {
-        if (openings_[i].massFlow.valid())
+        if (!openings_[i].massFlow.valid())
         {
-            continue;
-        }
-        for (const label celli : mesh_.boundary()[ports_[i].patch].faceCells())
-        {
-            given[parts[celli]] = true;
+            const fvPatch& patch = mesh_.boundary()[ports_[i].patch];
+            for (const label celli : patch.faceCells())
+            {
+                given[parts[celli]] = true;
+            }
         }
     }
     Pstream::listCombineGather(given, orEqOp<bool>());
     fromMaster(given);
-    if (given.found(false))
+    if (given.found(false) && (given.size() > 1 || openings_.size()))
     {
         FatalErrorInFunction
-            << "The mesh has " << parts.nRegions() << " parts that are not"
+            << "The mesh has " << given.size() << " parts that are not"
             << " connected, and in one of them no opening has a given pressure,"
-            << " allowed: each has such an opening"
+            << " allowed: each has such an opening, or one part without openings"
             << exit(FatalError);
     }
 }
@@ -302,11 +307,18 @@ void Foam::granularFlows::pressure::setProperties()
         viscous_[celli] =
             dragFactor_*mu*sqr((1 - porosity)/d)/pow3(porosity)*w;
         weight_[celli] = sqr(rho)*w;
+        buoyancy_[celli] =
+            compressible
+          ? weight_[celli]*gas_.capacity(T)/(T*stiffness(celli)) : 0;
         psi_[celli] = toPsi(gauge_[celli]);
     }
     if (coupled_)
     {
-        for (volScalarField* each : {&porosity_, &perFlux_, &viscous_})
+        for
+        (
+            volScalarField* each :
+            {&porosity_, &perFlux_, &viscous_, &buoyancy_, &gasT_}
+        )
         {
             each->correctBoundaryConditions();
         }
@@ -347,7 +359,7 @@ void Foam::granularFlows::pressure::guess()
     const side mean
     {
         1, gAverage(viscous_), gAverage(perFlux_), gAverage(porosity_), 0, Zero,
-        Zero
+        Zero, 0, 0
     };
     scalar G = 0;
     for (label i = 0; i < 30; ++i)
@@ -434,10 +446,12 @@ Foam::scalar Foam::granularFlows::pressure::massInPores() const
 
 // * * * * * * * * * * * * Protected Member Functions  * * * * * * * * * * * //
 
-void Foam::granularFlows::pressure::findFlux()
+void Foam::granularFlows::pressure::findFlux(const bool first)
 {
+    const scalarField before(unknowns());
     setOpenings();
     setProperties();
+    thermal_ = flux_;
     ++flows_;
     setMassFlux();
     guess();
@@ -454,6 +468,14 @@ void Foam::granularFlows::pressure::findFlux()
         {
             setUnknowns(mixing_.next(from, unknowns()));
         }
+    }
+    if (first)
+    {
+        mixingOfT_.clear();
+    }
+    else if (convergesSlowly())
+    {
+        setUnknowns(mixingOfT_.next(before, unknowns()));
     }
     newton_ += iterations;
     mostNewton_ = max(mostNewton_, iterations);
@@ -493,7 +515,8 @@ Foam::string Foam::granularFlows::pressure::summaryOfKind() const
             << -gSum(flux_.boundaryField()[ports_[i].patch]) << ", \"pressure\": "
             << gas_.pressure() + toGauge(openings_[i].psi) << "}";
     }
-    os  << "}, \"largest_share_expelled\": " << largestExpelled_
+    os  << "}, \"expelled_over_entered\": "
+        << expelled_/max(entered_, VSMALL)
         << ", \"newton_iterations\": "
         << scalar(newton_)/max(flows_, label(1))
         << ", \"most_newton_iterations\": " << mostNewton_;
@@ -505,14 +528,15 @@ Foam::string Foam::granularFlows::pressure::sentenceOfKind() const
 {
     OStringStream os;
     os.precision(6);
-    os  << "Flow: at the end";
+    os  << "Flow: at the end ";
     forAll(openings_, i)
     {
-        os  << (i ? ", " : " ") << ports_[i].name << " has "
+        os  << ports_[i].name << " has "
             << -gSum(flux_.boundaryField()[ports_[i].patch]) << " kg/s at "
-            << gas_.pressure() + toGauge(openings_[i].psi) << " Pa";
+            << gas_.pressure() + toGauge(openings_[i].psi) << " Pa, ";
     }
-    os  << ". The flow took " << scalar(newton_)/max(flows_, label(1))
+    os  << "the largest mass flux is "
+        << gMax(mag(massFlux_.primitiveField())) << " kg/(m2 s). The flow took " << scalar(newton_)/max(flows_, label(1))
         << " Newton iterations in the mean, at most " << mostNewton_ << ".";
     if (unsettled_)
     {
@@ -520,10 +544,10 @@ Foam::string Foam::granularFlows::pressure::sentenceOfKind() const
             << " solutions for the pressure did not converge in " << mostNewton
             << " iterations.";
     }
-    if (largestExpelled_ > mostExpelled)
+    if (expelled_ > mostExpelled*entered_)
     {
-        os  << " Doubt: Flow: the gas in the pores loses or gains up to "
-            << largestExpelled_ << " of the mass that enters, because its"
+        os  << " Doubt: Flow: the gas in the pores loses or gains "
+            << expelled_/entered_ << " of the mass that enters, because its"
             << " temperature changes; that mass is left out of the flow,"
             << " allowed: " << mostExpelled << ".";
     }
@@ -578,14 +602,8 @@ void Foam::granularFlows::pressure::finish
 )
 {
     bedFlow::finish(deltaT, share);
-    if (inflow() > 0)
-    {
-        largestExpelled_ = max
-        (
-            largestExpelled_,
-            mag(massInPores() - massBefore_)/(deltaT*inflow())
-        );
-    }
+    entered_ += deltaT*inflow();
+    expelled_ += inflow() > 0 ? mag(massInPores() - massBefore_) : 0;
 }
 
 

@@ -26,6 +26,9 @@ namespace Foam
 //- Largest residual of a linear solution
 static const scalar linearTolerance = 1e-7;
 
+//- Share of the diagonal that pins the mean of psi in a closed bed
+static const scalar pinned = 1e-12;
+
 //- Flux that rounding makes, over what one side of the balance would drive
 static const scalar rounded = 1e-13;
 
@@ -43,7 +46,8 @@ Foam::granularFlows::pressure::side Foam::granularFlows::pressure::sideOf
     return
     {
         length, viscous_[celli], perFlux_[celli], porosity_[celli],
-        weight_[celli], massFlux_[celli], gradient_[celli]
+        weight_[celli], massFlux_[celli], gradient_[celli],
+        gasT_[celli], buoyancy_[celli]
     };
 }
 
@@ -57,6 +61,7 @@ Foam::granularFlows::pressure::sidesBeyond(const label patchi) const
     };
     const scalarField viscous(beyond(viscous_)), perFlux(beyond(perFlux_));
     const scalarField porosity(beyond(porosity_)), weight(beyond(weight_));
+    const scalarField T(beyond(gasT_)), buoyancy(beyond(buoyancy_));
     const vectorField G
     (
         massFlux_.boundaryField()[patchi].patchNeighbourField()
@@ -70,7 +75,8 @@ Foam::granularFlows::pressure::sidesBeyond(const label patchi) const
     {
         result[i] =
         {
-            0, viscous[i], perFlux[i], porosity[i], weight[i], G[i], gradient[i]
+            0, viscous[i], perFlux[i], porosity[i], weight[i], G[i],
+            gradient[i], T[i], buoyancy[i]
         };
     }
     return result;
@@ -102,11 +108,15 @@ Foam::scalar Foam::granularFlows::pressure::linearised
     const vector& skew,
     const scalar difference,
     const scalar Gn,
+    const scalar then,
     scalar& slope
 ) const
 {
     const vector& g = properties_.gravity();
     const scalar length = P->length + (N ? N->length : 0);
+    // Positive where the gas is stably stratified
+    const scalar stable =
+        N ? max((P->T - N->T)/length*(g & normal), scalar(0)) : 0;
     scalar drive = difference, needed = 0, steep = 0, change;
     for (const side* s : {P, N})
     {
@@ -119,8 +129,9 @@ Foam::scalar Foam::granularFlows::pressure::linearised
         const scalar R = resistance(*s, std::sqrt(G2), change);
         drive += s->length*s->weight*(g & normal);
         drive -= s->length/length*(skew & s->gradient);
-        needed += s->length*R*Gn;
-        steep += s->length*(R + change*sqr(Gn)/max(G2, VSMALL));
+        const scalar buoyant = s->buoyancy*stable;
+        needed += s->length*(R*Gn + buoyant*(Gn - then));
+        steep += s->length*(R + change*sqr(Gn)/max(G2, VSMALL) + buoyant);
     }
     slope = 1/steep;
     return Gn + slope*(drive - needed);
@@ -245,7 +256,8 @@ void Foam::granularFlows::pressure::setPresent()
             linearised
             (
                 &p, &n, Sf[facei]/magSf[facei], length*skew[facei],
-                psi_[P] - psi_[N], flux_[facei]/magSf[facei], slope
+                psi_[P] - psi_[N], flux_[facei]/magSf[facei],
+                thermal_[facei]/magSf[facei], slope
             );
         present_[facei] = magSf[facei]*G;
         slope_[facei] = magSf[facei]*slope;
@@ -293,6 +305,8 @@ void Foam::granularFlows::pressure::setPresent()
                     &p, beyond ? &n : nullptr, normals[facei], along,
                     psi_[P] - psi[facei],
                     flux_.boundaryField()[patchi][facei]/patch.magSf()[facei],
+                    thermal_.boundaryField()[patchi][facei]
+                   /patch.magSf()[facei],
                     slope
                 );
             presentBf[patchi][facei] = patch.magSf()[facei]*G;
@@ -341,6 +355,14 @@ void Foam::granularFlows::pressure::solveChange
         equation.diag()[mesh_.neighbour()[facei]] += slope_[facei];
     }
     equation.source() = source;
+    if (openings_.empty())
+    {
+        // The mean is free, and rounding alone makes the balance of a closed
+        // bed differ from 0
+        equation.diag() *= 1 + pinned;
+        equation.source() -=
+            gSum(source)/returnReduce(source.size(), sumOp<label>());
+    }
     forAll(slope_.boundaryField(), patchi)
     {
         equation.internalCoeffs()[patchi] = slope_.boundaryField()[patchi];
@@ -360,6 +382,12 @@ void Foam::granularFlows::pressure::solveChange
     solverPerformance::debug = 0;
     equation.solve(controls);
     solverPerformance::debug = level;
+    if (openings_.empty())
+    {
+        // The mean stays
+        change_.primitiveFieldRef() -=
+            gSum(change_.primitiveField()*mesh_.V())/gSum(mesh_.V());
+    }
     change_.correctBoundaryConditions();
 }
 

@@ -28,8 +28,9 @@ const keyTable granularFlows::pressure::kindKeys
         {
             "openings",
             "patches through which the gas flows, by their names, see below. At"
-            " one of them at least the pressure is given", "-", "a dictionary",
-            "required"
+            " one of them at least the pressure is given. Empty: the bed is"
+            " closed, its mean pressure is `gasPressure`, and the gas convects",
+            "-", "a dictionary", "required"
         }
     }
 );

@@ -60,7 +60,7 @@ Foam::granularFlows::through::through
     setG(largest_);
     const port& from = ports_[ports_[0].temperature.valid() ? 0 : 1];
     chooseTemperatures(from.temperature->value(grains.record().startTime));
-    findFlux();
+    findFlux(true);
 }
 
 
@@ -186,7 +186,7 @@ void Foam::granularFlows::through::setG(const scalar G)
 }
 
 
-void Foam::granularFlows::through::findFlux()
+void Foam::granularFlows::through::findFlux(const bool)
 {
     setG(perFlow_*flow_->value(mesh_.time().value()));
 }

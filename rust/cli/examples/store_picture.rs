@@ -1,9 +1,11 @@
-//! What happens in a heat store of spheres that gas charges: the figure of the book's tutorial. Draws temperatures of gas and spheres
-//! along the axis, the temperature of the gas at the outlet, and the stress across the side, from a finished case of `msdd case new
-//! --spheres --flow` whose flow is along x and whose folder 0 has the centres of the cells (`postProcess -func writeCellCentres -time 0`).
+//! What happens in a bed with gas that flows: the figures of the book's tutorial. Draws a row of panels from a finished case whose folder 0
+//! has the centres of the cells (`postProcess -func writeCellCentres -time 0`):
+//!
+//! - `x`, `y` or `z`: temperatures of gas and spheres along this axis, at each time;
+//! - `FOLDER/COLUMN*FACTOR:NAME`: a column of a table of `postProcessing` over time, such as `flow/pressureDrop*1:pressure drop [Pa]`.
 //!
 //! ```sh
-//! cargo run --release -p msdd-cli --example store_picture -- CASE FILE.svg
+//! cargo run --release -p msdd-cli --example store_picture -- CASE FILE.svg PANEL...
 //! ```
 
 use msdd_files::read_text;
@@ -24,30 +26,34 @@ type Line = Vec<(f64, f64)>;
 const COLOURS: [RGBColor; 4] =
     [RGBColor(0, 114, 178), RGBColor(86, 180, 233), RGBColor(230, 159, 0), RGBColor(213, 94, 0)];
 const HOUR: f64 = 3600.0;
-const SIZE: (u32, u32) = (1200, 400);
 const TEXT: (&str, i32) = ("sans-serif", 15);
 
 fn main() -> Result<()> {
     let arguments: Vec<String> = std::env::args().collect();
-    let [_, case, file] = arguments.as_slice() else {
-        return Err("usage: store_picture CASE FILE.svg".into());
+    let [_, case, file, names @ ..] = arguments.as_slice() else {
+        return Err("usage: store_picture CASE FILE.svg PANEL...".into());
     };
     let case = Path::new(case);
-    let root = SVGBackend::new(file, SIZE).into_drawing_area();
+    let width = u32::try_from(names.len())? * 400;
+    let root = SVGBackend::new(file, (width, 400)).into_drawing_area();
     root.fill(&WHITE)?;
-    let panels = root.split_evenly((1, 3));
-    profiles(case, &panels[0])?;
-    let flow = table(case, "flow", "flow.dat")?;
-    over_time(&panels[1], "gas at the outlet [K]", &series(&flow, "outletTemperature", 1.0)?)?;
-    let walls = table(case, "wallPressure", "wallPressure.dat")?;
-    over_time(&panels[2], "stress across the side [kPa]", &series(&walls, "side_normal", 1e-3)?)?;
+    for (name, panel) in names.iter().zip(root.split_evenly((1, names.len()))) {
+        let Some((source, title)) = name.split_once(':') else {
+            profiles(case, name, &panel)?;
+            continue;
+        };
+        let parts = source.split_once('/').and_then(|(folder, rest)| Some((folder, rest.split_once('*')?)));
+        let (folder, (column, factor)) = parts.ok_or_else(|| format!("{name}: no panel"))?;
+        let table = table(case, folder, &format!("{folder}.dat"))?;
+        over_time(&panel, title, &series(&table, column, factor.parse()?)?)?;
+    }
     root.present()?;
     Ok(())
 }
 
 /// Gas with full, spheres with broken lines, at each time.
-fn profiles(case: &Path, panel: &Panel<'_>) -> Result<()> {
-    let x = column(&case.join("0/Cx"))?;
+fn profiles(case: &Path, axis: &str, panel: &Panel<'_>) -> Result<()> {
+    let x = column(&case.join("0").join(format!("C{axis}")))?;
     let mut times: Vec<(f64, PathBuf)> = std::fs::read_dir(case)?
         .filter_map(|entry| entry.ok().map(|e| e.path()))
         .filter_map(|path| Some((path.file_name()?.to_str()?.parse().ok()?, path)))
@@ -60,7 +66,7 @@ fn profiles(case: &Path, panel: &Panel<'_>) -> Result<()> {
         .map(|(time, folder)| Ok((*time, along(&x, folder, "gasTemperature")?, along(&x, folder, "T")?)))
         .collect::<Result<_>>()?;
     let all: Line = lines.iter().flat_map(|(_, gas, spheres)| gas.iter().chain(spheres)).copied().collect();
-    let mut chart = axes(panel, &all, "height [m]", "T of gas (full) and spheres (broken) [K]")?;
+    let mut chart = axes(panel, &all, &format!("{axis} [m]"), "T of gas (full) and spheres (broken) [K]")?;
     for ((time, gas, spheres), colour) in lines.iter().zip(COLOURS) {
         let style = colour.stroke_width(2);
         chart
@@ -69,9 +75,10 @@ fn profiles(case: &Path, panel: &Panel<'_>) -> Result<()> {
             .legend(move |(x, y)| PathElement::new([(x, y), (x + 24, y)], style));
         chart.draw_series(DashedLineSeries::new(spheres.iter().copied(), 6, 4, style))?;
     }
+    let falls = lines.first().is_some_and(|(_, gas, _)| gas.first().map(|p| p.1) > gas.last().map(|p| p.1));
     chart
         .configure_series_labels()
-        .position(SeriesLabelPosition::LowerRight)
+        .position(if falls { SeriesLabelPosition::LowerLeft } else { SeriesLabelPosition::LowerRight })
         .background_style(WHITE.mix(0.8))
         .label_font(TEXT)
         .draw()?;

@@ -76,7 +76,7 @@ as_through() { # the same bed by flow through
     driven pressure-same 40 "$cycle" 'gasPressure 1e5; temperatures two;' 'endTime 8000; deltaT 200; writeInterval 40;' 'timeScheme secondOrder;' 1
     logged msddFoam
     e=$(worst_of "$work/pressure-through" 8000)
-    check "flow through: temperatures differ by $e <= 1e-9" below "$e" 1e-9
+    check "flow through: temperatures differ by $e <= 2e-9" below "$e" 2e-9 # the tolerances of both
     cycle_case pressure-halves 'endTime 4000; deltaT 200; writeInterval 20;'
     logged msddFoam
     controls 'endTime 8000;'
@@ -88,7 +88,7 @@ as_through() { # the same bed by flow through
         side_by_side $((${parts% *}*${parts#* }))
         logged reconstructPar
         e=$(worst_of "$work/pressure-cycle" 8000)
-        check "gas on $parts processes: temperatures differ by $e <= 1e-10" below "$e" 1e-10
+        check "gas on $parts processes: temperatures differ by $e <= 1e-9" below "$e" 1e-9 # the tolerance of the repetitions
     done
 }
 hand_over() { # the gas comes in at one end, then at the other
@@ -141,15 +141,14 @@ rest() { # air of one temperature between a closed foot and an open top does not
 convection() { # helium between a hot floor and a cold lid in a closed square: Ra = 4 pi^2 at its onset
     local Ra e n=24
     for Ra in 0.98 1.02; do
-        driven pressure-onset $n 'vent { temperature 300; }' "gas helium; gasPressure 1e6; drag Ergun; temperatures one; dispersionAlong 0; dispersionAcross 0;
+        driven pressure-onset $n '' "gas helium; gasPressure 1e6; drag Ergun; temperatures one; dispersionAlong 0; dispersionAcross 0;
             exchange constant; exchangeCoefficient 1e12;" 'endTime 3e7; deltaT 5e5; writeInterval 20;' 'timeScheme secondOrder;' 0.1
-        block_mesh '(0 0 0) (0.95 0 0) (1 0 0) (0 1 0) (0.95 1 0) (1 1 0) (0 0 0.1) (0.95 0 0.1) (1 0 0.1) (0 1 0.1) (0.95 1 0.1) (1 1 0.1)' \
-            "hex (0 1 4 3 6 7 10 9) ($((n - 1)) $n 1) simpleGrading (1 1 1) hex (1 2 5 4 7 8 11 10) (1 $n 1) simpleGrading (1 1 1)" '' '
-            hot { type wall; faces ((0 1 7 6) (1 2 8 7)); } cold { type wall; faces ((3 4 10 9)); } vent { type patch; faces ((4 5 11 10)); }
-            sides { type wall; faces ((0 3 9 6) (2 5 11 8)); } frontAndBack { type empty; faces ((0 1 4 3) (6 7 10 9) (1 2 5 4) (7 8 11 10)); }'
+        block_mesh '(0 0 0) (1 0 0) (1 1 0) (0 1 0) (0 0 0.1) (1 0 0.1) (1 1 0.1) (0 1 0.1)' \
+            "hex (0 1 2 3 4 5 6 7) ($n $n 1) simpleGrading (1 1 1)" '' '
+            hot { type wall; faces ((0 1 5 4)); } cold { type wall; faces ((3 7 6 2)); } sides { type wall; faces ((0 4 7 3) (1 2 6 5)); }
+            frontAndBack { type empty; faces ((0 3 2 1) (4 5 6 7)); }'
         hot_wall hot 303
         hot_wall cold 297
-        hot_wall vent 297
         gravity_is '0 -9.81 0'
         # Diameter of this Rayleigh number, by the permeability of Ergun's drag
         e=$(awk -v Ra="$Ra" 'BEGIN { pi = atan2(0, -1); T = 300; mu = 3.674e-7*T^0.7; rho = 1e6*4.002602e-3/8.314462618/T
@@ -164,6 +163,19 @@ convection() { # helium between a hot floor and a cold lid in a closed square: R
         check "Rayleigh number $Ra times 4 pi^2: the energy of the flow changes by a factor of $e, $([ $Ra = 0.98 ] && echo below || echo above) 1" \
             awk "BEGIN { exit !($e > 0 && ($Ra < 1 ? $e < 1 : $e > 1)) }"
     done
+}
+stratified() { # air that is hot above: two hot layers on cold ones do not make the solutions of flow and temperatures swing
+    local e
+    driven pressure-stratified 20 '' 'gasPressure 1e6; temperatures two;' 'endTime 3000; deltaT 300; writeInterval 10;' 'timeScheme secondOrder;' 0.1
+    gravity_is '-9.81 0 0'
+    { sed '/internalField/,$d' 0/T; echo 'internalField nonuniform List<scalar> 20 ('; for i in $(seq 20); do echo $((i > 10 ? 800 : 300)); done
+      echo ');'; sed '1,/internalField/d' 0/T; } > T.new
+    mv T.new 0/T
+    logged msddFoam
+    e=$(of_summary solutions_per_stage)
+    check "air that is hot above: $e <= 5 solutions a stage" below "$e" 5
+    e=$(field 3000/gasMassFlux | awk '{ e = $1 < 0 ? -$1 : $1; if (!(e <= w)) w = e } END { print w }')
+    check "and flows with $e <= 1e-9 kg/(m2 s)" below "$e" 1e-9
 }
 column() { # gas upwards through a column of grains: the stress at its foot falls with the pressure drop
     local kind e
@@ -211,5 +223,6 @@ hand_over
 radial
 rest
 convection
+stratified
 column
 refusals
