@@ -19,7 +19,8 @@ pub enum Command {
     /// Make a new case: asks for options that are not given, finds the initial packing, and writes a folder that is ready to
     /// run.
     ///
-    /// The bed is of discs in the plane, packed by DEM, or, with --spheres, of equal spheres with gas between them. These fill a box, or an upright cylinder, which is computed as a wedge.
+    /// The bed is of discs in the plane, packed by DEM, or, with --spheres, of equal spheres with gas between them. These fill
+    /// a box, or an upright cylinder, which is computed as a wedge.
     ///
     /// The initial state of spheres follows from the law of spheres, for a bed that was poured and pressed from above: the
     /// horizontal stress is 0.8 of the vertical one, there are 0.4 contacts per sphere more than in a periodic box, and more

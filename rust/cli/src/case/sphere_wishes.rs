@@ -82,10 +82,9 @@ pub struct SphereWishes {
     /// Top wall: constant load (`presses`: a stiff plate with the initial pressure) or fixed (`stays`). Default: `presses`.
     #[arg(long, value_enum, requires = "spheres")]
     lid: Option<LidName>,
-    /// The side of the cylinder as a thin elastic vessel: Young's modulus [Pa], thickness [m] and linear thermal
-    /// expansion coefficient [1/K], such as `200e9,0.002,1.2e-5` of steel. It is at its initial place
-    /// at the initial temperature. Allowed: modulus 1 to 1e15, thickness up to a fifth of the radius, expansion 0 to 0.01. Default: a rigid
-    /// side.
+    /// The side of the cylinder as a thin elastic vessel: Young's modulus [Pa], thickness [m] and linear thermal expansion
+    /// coefficient [1/K], such as `200e9,0.002,1.2e-5` of steel. It is at its initial place at the initial temperature.
+    /// Allowed: modulus 1 to 1e15, thickness up to a fifth of the radius, expansion 0 to 0.01. Default: a rigid side.
     #[arg(long, value_name = "PA,M,1/K", value_parser = parse_shell, requires = "spheres")]
     shell: Option<Shell>,
     /// Slack of spheres at a fixed bottom and top, in diameters of bed. Allowed: 0 to 1000. Default: 1; 0 under a
