@@ -54,7 +54,7 @@ The folder holds bed.toml (every key is explained in the book, Reference, Measur
 measurements. If it holds elements.toml instead, a bed whose walls move while heat flows, the only result is elements.csv; with
 --packings it is the mean, elements-scatter.csv is the standard deviation of one packing, and elements-<seed>.csv are the single
 ones: what is there already, from the same elements.toml, is not computed again. Into the folder of results of a bed.toml go
-  temperature.csv   T over time at the probes, for both ways to take the plate
+  temperature.csv   T over time at the probes, without and with contact resistance at the plate
   comparison.csv    differences from the measurements
   bed.json          the packing, heat and its balance, and how each stage came to rest
   grains.vtp        the grains with their temperatures at the end, for ParaView
