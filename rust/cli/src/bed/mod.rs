@@ -50,7 +50,7 @@ pub enum Command {
   msdd bed run cases/beaulieu --vary     what the uncertain inputs change, one at a time
   msdd bed run cases/store --packings 2  the mean of two packings, and how much they differ
 
-The folder holds bed.toml (every key is explained in the book, Reference, Measured beds) and, if there is an experiment, its
+The folder holds bed.toml (keys: the book, Reference, Beds by DEM) and, if there is an experiment, its
 measurements. If it holds elements.toml instead, a bed whose walls move while heat flows, the only result is elements.csv; with
 --packings it is the mean, elements-scatter.csv is the standard deviation of one packing, and elements-<seed>.csv are the single
 ones: what is there already, from the same elements.toml, is not computed again. Into the folder of results of a bed.toml go
