@@ -72,13 +72,13 @@ const Foam::keyTable Foam::wallConditions::keys
             " after a large slip; after a slip s it is friction s/(s + `slip`)."
             " Spheres also roll along a wall: see [rough"
             " walls](../quality/spheres.md#rough-walls)", "-", "0 to 10",
-            "of discs that of the model; of spheres and with `law elastic` 0",
+            "of discs from the model; of spheres and with `law elastic` 0",
             "rigid"
         },
         {
             "slip", "slip at which half of `friction` is reached", "m",
             "2e-7 r to 2000 r",
-            "of discs that of the model; else required with `friction`", "rigid"
+            "of discs from the model; else required with `friction`", "rigid"
         },
         {
             "layer",

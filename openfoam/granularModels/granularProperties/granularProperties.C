@@ -70,9 +70,9 @@ const Foam::keyTable Foam::granularProperties::grainKeys
         },
         {
             "bulkDensity",
-            "how the mass of a cell follows from `density` and the initial"
-            " porosity. `massConsistent`: density times the total area of the"
-            " grains over that of the cell. `paper`: density times"
+            "mass of a cell from `density` and the initial porosity."
+            " `massConsistent`: density times the total area of the grains"
+            " over the area of the cell. `paper`: density times"
             " (1 - porosity), which counts overlaps once and loses about 2 % of"
             " the mass", "-", "massConsistent, paper", "massConsistent"
         },

@@ -91,7 +91,7 @@ const keyTable granularModels::spheres::keys
             "coordination",
             "contacts per sphere at the start, all spheres counted. A field"
             " `coordination` replaces it", "-", "0 to 12",
-            "that of a periodic box in this state; beds under gravity have"
+            "as in a periodic box in this state; beds under gravity have"
             " about 0.4 more"
         },
         {
@@ -152,7 +152,7 @@ static const keyTable sphereWallKeys
         {
             "emissivity",
             "emissivity of the wall, which exchanges radiation with spheres that"
-            " radiate", "-", "0 to 1", "that of the spheres"
+            " radiate", "-", "0 to 1", "as of the spheres"
         }
     }
 );

@@ -41,8 +41,8 @@ static const keyTable ownFields
         },
         {
             "conductivity",
-            "conductivity of the bed; at the start that of the packing, by"
-            " default the mean of packings in that state", "W/(m K)", "> 0",
+            "conductivity of the bed; at the start the packing's own, by default"
+            " the mean of packings in that state", "W/(m K)", "> 0",
             "in, out"
         },
         {

@@ -39,6 +39,13 @@ pub fn renewed(page: &Page, results: &Results) -> Result<(String, Vec<Finding>),
 
 /// What has to stand between a pair of marks.
 fn content(mark: &Mark, results: &Results) -> Result<String, String> {
+    if let Some(range) = mark.key.strip_prefix("range:") {
+        let (name, rest) = range.split_once('@').unwrap_or((range, ""));
+        let (column, row) = rest.split_once('@').unwrap_or((rest, ""));
+        let found = results.table(name).and_then(|table| table.range(column, row));
+        return found
+            .ok_or_else(|| format!("{FILE} has no numbers '{range}', table@column or table@column@row"));
+    }
     let Some(name) = mark.table() else {
         let unknown = || format!("{FILE} has no number '{}'", mark.key);
         return results.value(&mark.key).map(|value| value.value.clone()).ok_or_else(unknown);

@@ -82,19 +82,19 @@ pub fn checkout(start: &Path) -> Result<PathBuf, DocsError> {
     found.map(Path::to_path_buf).ok_or(DocsError::NoCheckout)
 }
 
-/// README.md, the book, and every README.md below cases and rust: relative to `root`, in alphabetical order.
+/// The pages at the top, the book, every README.md below cases, and all pages below rust: relative to `root`, in
+/// alphabetical order.
 ///
 /// # Errors
 /// A folder that cannot be read.
 pub fn all(root: &Path) -> Result<Vec<PathBuf>, DocsError> {
     let mut files = Vec::new();
-    if root.join("README.md").is_file() {
-        files.push(PathBuf::from("README.md"));
+    let top = ["README.md", "CONTRIBUTING.md", "CHANGELOG.md"].map(PathBuf::from);
+    files.extend(top.into_iter().filter(|file| root.join(file).is_file()));
+    for folder in [BOOK, "rust"] {
+        collect(root, Path::new(folder), &|file| file.extension().is_some_and(|e| e == "md"), &mut files)?;
     }
-    collect(root, Path::new(BOOK), &|file| file.extension().is_some_and(|e| e == "md"), &mut files)?;
-    for folder in ["cases", "rust"] {
-        collect(root, Path::new(folder), &|file| file.ends_with("README.md"), &mut files)?;
-    }
+    collect(root, Path::new("cases"), &|file| file.ends_with("README.md"), &mut files)?;
     files.sort();
     Ok(files)
 }

@@ -140,6 +140,22 @@ impl Results {
 }
 
 impl Table {
+    /// Least and largest number at the starts of a column's cells, as printed; of the rows whose first cell has `row` in it.
+    /// One number where they are equal.
+    pub fn range(&self, column: &str, row: &str) -> Option<String> {
+        let column = self.columns.iter().position(|name| name == column)?;
+        let cells =
+            self.rows.iter().filter(|cells| cells[0].contains(row)).map(|cells| cells[column].as_str());
+        let numbers = cells.filter_map(|cell| {
+            let printed = cell.split(' ').next()?;
+            Some((printed.replace('\u{a0}', "").parse::<f64>().ok()?, printed))
+        });
+        let numbers: Vec<(f64, &str)> = numbers.collect();
+        let least = numbers.iter().min_by(|a, b| a.0.total_cmp(&b.0))?.1;
+        let most = numbers.iter().max_by(|a, b| a.0.total_cmp(&b.0))?.1;
+        Some(if least == most { most.to_string() } else { format!("{least} to {most}") })
+    }
+
     fn check(&self) -> Result<(), String> {
         if self.columns.is_empty() {
             return Err("has no columns".to_string());

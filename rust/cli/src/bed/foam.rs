@@ -35,7 +35,7 @@ pub struct Arguments {
     case: PathBuf,
     /// The new case folder; it must not exist yet, or be empty.
     folder: PathBuf,
-    /// Results of the discrete elements, whose first row is the start. Default: elements.csv beside elements.toml.
+    /// Results of DEM, whose first row is the start. Default: elements.csv next to elements.toml.
     #[arg(long, value_name = "FILE")]
     from: Option<PathBuf>,
     /// Write into a folder that is not empty: files of the same name are replaced, all others stay.

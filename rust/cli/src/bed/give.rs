@@ -17,7 +17,7 @@ use std::path::{Path, PathBuf};
 Spheres at a plate find no hold, and a bed between plates is shortened by more than its strain inside, which 'msdd bed run' records.
 'give' is the thickness of bed, in diameters, that does this at each plate while the bed is pressed, 'back' the same while it is let
 up: the keys of a wall in the solver's granularProperties are give, and giveBack = back/give. The second number is how much one packing
-differs from the mean. A lid that keeps its pressure tells nothing.")]
+differs from the mean. A lid of constant pressure gives no value.")]
 pub struct Arguments {
     /// Folders with elements.toml and elements-<seed>.csv, or elements.csv alone; or folders of such folders.
     #[arg(required = true)]

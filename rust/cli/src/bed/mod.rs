@@ -25,17 +25,16 @@ pub enum Command {
     Run(RunArguments),
     /// Write a case folder of the solver for the bed of an elements.toml.
     ///
-    /// Walls, heating, lid and shell are those of the file. At plates that stay or are moved spheres give way by 1 diameter,
-    /// of which a tenth goes back (give, giveBack): the mean of the beds that were counted, whatever the friction of the
-    /// plates. `msdd bed give` counts it for this bed. Walls that stay have the friction of a bed that belongs to
-    /// wall_friction.
+    /// Walls, heating, lid and shell are those of the file. Fixed or moved plates have a slack of 1 diameter, of which a tenth
+    /// is recovered (give, giveBack): the mean of the beds that were measured, for any friction of the plates. `msdd bed give`
+    /// measures it for this bed. Fixed walls have the friction of a bed for wall_friction.
     Case(foam::Arguments),
     /// Write the elements.toml of a case of the solver with spheres, for `msdd bed run`.
     ///
     /// The reverse of `msdd bed case`: box or cylinder, spheres, gas, walls with a temperature, gravity, lid, shell and
     /// friction of walls. Heat from inside and other conditions of walls are left out and named.
     FromCase(from_case::Arguments),
-    /// Find by how much the spheres next to plates give way, from results of `msdd bed run --packings`.
+    /// Measure the slack of spheres next to plates, from results of `msdd bed run --packings`.
     ///
     /// It is what the plates have moved towards each other beyond the strain inside times the depth, over the strain inside
     /// without the own growth of the spheres. The numbers are valid for the depth between the plates; where a mesh is less
@@ -51,11 +50,11 @@ pub enum Command {
   msdd bed run cases/beaulieu --vary     what the uncertain inputs change, one at a time
   msdd bed run cases/store --packings 2  the mean of two packings, and how much they differ
 
-The folder holds bed.toml (every key is explained in the book, Reference, Measured beds) and, if there is an experiment, its
+The folder holds bed.toml (keys: the book, Reference, Beds by DEM) and, if there is an experiment, its
 measurements. If it holds elements.toml instead, a bed whose walls move while heat flows, the only result is elements.csv; with
 --packings it is the mean, elements-scatter.csv is the standard deviation of one packing, and elements-<seed>.csv are the single
 ones: what is there already, from the same elements.toml, is not computed again. Into the folder of results of a bed.toml go
-  temperature.csv   T over time at the probes, for both ways to take the plate
+  temperature.csv   T over time at the probes, without and with contact resistance at the plate
   comparison.csv    differences from the measurements
   bed.json          the packing, heat and its balance, and how each stage came to rest
   grains.vtp        the grains with their temperatures at the end, for ParaView
@@ -69,10 +68,10 @@ pub struct RunArguments {
     /// Folder for the results. Default: results/beds/ and the name of the case.
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
-    /// Seed of the packing. Default: that of the case.
+    /// Seed of the packing. Default: from the case.
     #[arg(long, value_parser = clap::value_parser!(u64).range(..=i64::MAX as u64))]
     seed: Option<u64>,
-    /// Packings with this many seeds, from that of the case on; with an elements.toml. Default: one packing.
+    /// Packings with this many seeds, from the case's seed on; with an elements.toml. Default: one packing.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=1000))]
     packings: Option<u32>,
     /// Compute it again with each value of the blocks [[vary]] of the case, one changed at a time.

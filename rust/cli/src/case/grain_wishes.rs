@@ -13,23 +13,23 @@ pub struct GrainWishes {
     /// `lithium-orthosilicate`. Default: `paper`, of spheres `steel`.
     #[arg(long, value_name = "NAME", help_heading = "Grains")]
     material: Option<String>,
-    /// Density of the grains [kg/m3]. Allowed: 1e-12 to 1e15. Default: that of the material.
+    /// Density of the grains [kg/m3]. Allowed: 1e-12 to 1e15. Default: from the material.
     #[arg(long, value_name = "KG/M3", help_heading = "Grains")]
     density: Option<f64>,
-    /// Young's modulus of the grains [Pa]. Allowed: 1e-12 to 1e15. Default: that of the material.
+    /// Young's modulus of the grains [Pa]. Allowed: 1e-12 to 1e15. Default: from the material.
     #[arg(long, value_name = "PA", help_heading = "Grains")]
     young_modulus: Option<f64>,
-    /// Thermal conductivity of the grains [W/(m K)]. Allowed: 1e-12 to 1e15. Default: that of the material.
+    /// Thermal conductivity of the grains [W/(m K)]. Allowed: 1e-12 to 1e15. Default: from the material.
     #[arg(long, value_name = "W/(M K)", help_heading = "Grains")]
     thermal_conductivity: Option<f64>,
-    /// Specific heat capacity of the grains [J/(kg K)]. Allowed: 1e-12 to 1e15. Default: that of the material.
+    /// Specific heat capacity of the grains [J/(kg K)]. Allowed: 1e-12 to 1e15. Default: from the material.
     #[arg(long, value_name = "J/(KG K)", help_heading = "Grains")]
     heat_capacity: Option<f64>,
-    /// Linear thermal expansion coefficient of the grains [1/K]. Allowed: 0 to 1. Default: that of the material.
+    /// Linear thermal expansion coefficient of the grains [1/K]. Allowed: 0 to 1. Default: from the material.
     #[arg(long, value_name = "1/K", help_heading = "Grains")]
     thermal_expansion: Option<f64>,
     /// Mean radius of the grains [m]. The radii of discs are uniformly distributed between 0.6 and 1.4 times this value;
-    /// spheres are equal. Allowed: 1e-12 to 1e15. Default: that of the material.
+    /// spheres are equal. Allowed: 1e-12 to 1e15. Default: from the material.
     #[arg(long, value_name = "M", help_heading = "Grains")]
     mean_radius: Option<f64>,
     /// Mean diameter of the grains [m], instead of the radius. Allowed: 2e-12 to 2e15.

@@ -16,13 +16,13 @@ pub(crate) use solve::{attempt, beside};
 
 #[derive(Subcommand)]
 pub enum Command {
-    /// Make a new case: asks for what is not given as an option, finds how the grains lie at the start, and writes a folder
-    /// that is ready to run.
+    /// Make a new case: asks for options that are not given, finds the initial packing, and writes a folder that is ready to
+    /// run.
     ///
-    /// The bed is of discs in the plane, whose start is packed by discrete elements, or, with --spheres, of equal spheres
-    /// with gas between them. These fill a box, or an upright cylinder, which is computed as a wedge.
+    /// The bed is of discs in the plane, packed by DEM, or, with --spheres, of equal spheres with gas between them. These fill
+    /// a box, or an upright cylinder, which is computed as a wedge.
     ///
-    /// The start of spheres follows from the law of spheres, as that of a bed that was poured and pressed from above: the
+    /// The initial state of spheres follows from the law of spheres, for a bed that was poured and pressed from above: the
     /// horizontal stress is 0.8 of the vertical one, there are 0.4 contacts per sphere more than in a periodic box, and more
     /// of them point upwards (fabric 0.35 instead of 1/3). The law is valid for a friction of 0.3. There is gravity, and
     /// rigid walls have the friction of a sphere, 0.3. All walls are rigid but a top that presses and a side that is a shell,

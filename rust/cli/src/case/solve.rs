@@ -43,7 +43,7 @@ pub struct Arguments {
     /// Wanted accuracy of T [% of its range]. Allowed: 0.001 to 100. Default: `accuracy` of system/fvSolution.
     #[arg(long, value_name = "PERCENT", value_parser = percent)]
     accuracy: Option<f64>,
-    /// Wanted accuracy of p [% of its range], in addition to that of T. Allowed: 0.001 to 100. Default: `pressureAccuracy` of
+    /// Wanted accuracy of p [% of its range], in addition to T. Allowed: 0.001 to 100. Default: `pressureAccuracy` of
     /// system/fvSolution, if there is one.
     #[arg(long, value_name = "PERCENT", value_parser = percent)]
     pressure_accuracy: Option<f64>,

@@ -48,18 +48,18 @@ pub struct SphereWishes {
     /// Back wall of the box; values as for --left. Default: insulated.
     #[arg(long, value_name = "WALL", value_parser = parse_wall, requires = "spheres")]
     back: Option<WallOverTime>,
-    /// Poisson's ratio of the spheres. Allowed: -0.99 to 0.5. Default: that of the material.
+    /// Poisson's ratio of the spheres. Allowed: -0.99 to 0.5. Default: from the material.
     #[arg(long, value_name = "NU", allow_negative_numbers = true, requires = "spheres")]
     poisson_ratio: Option<f64>,
     /// Height of the asperities (root mean square) over their slope [m]; 0: smooth. Allowed: 0 to a hundredth of the radius.
-    /// Default: that of the material.
+    /// Default: from the material.
     #[arg(long, value_name = "M", requires = "spheres")]
     roughness: Option<f64>,
-    /// Hardness of the surface of the spheres [Pa], which counts where they are rough. Allowed: 1 to 1e15. Default: that of
+    /// Hardness of the surface of the spheres [Pa], which counts where they are rough. Allowed: 1 to 1e15. Default: from
     /// the material.
     #[arg(long, value_name = "PA", requires = "spheres")]
     hardness: Option<f64>,
-    /// Emissivity of the surface of the spheres; 0: without radiation. Allowed: 0 to 1. Default: that of the material.
+    /// Emissivity of the surface of the spheres; 0: without radiation. Allowed: 0 to 1. Default: from the material.
     #[arg(long, value_name = "E", requires = "spheres")]
     emissivity: Option<f64>,
     /// Gas between the spheres, which must conduct less than they do. Allowed: `air`, `nitrogen`, `helium`, `argon`,
@@ -79,17 +79,15 @@ pub struct SphereWishes {
     /// Where the gas flows in. Default: `top`.
     #[arg(long, value_enum, requires = "flow")]
     flow_from: Option<FlowEnd>,
-    /// Whether the top goes on pressing with the pressure of the start, as a stiff plate that gives way, or stays where it
-    /// is. Default: `presses`.
+    /// Top wall: constant load (`presses`: a stiff plate with the initial pressure) or fixed (`stays`). Default: `presses`.
     #[arg(long, value_enum, requires = "spheres")]
     lid: Option<LidName>,
-    /// The side of the cylinder as a thin vessel that gives way: Young's modulus [Pa], thickness [m] and linear thermal
-    /// expansion coefficient [1/K], such as `200e9,0.002,1.2e-5` of steel. At the temperature of the start it has its place
-    /// of the start. Allowed: modulus 1 to 1e15, thickness up to a fifth of the radius, expansion 0 to 0.01. Default: a rigid
-    /// side.
+    /// The side of the cylinder as a thin elastic vessel: Young's modulus [Pa], thickness [m] and linear thermal expansion
+    /// coefficient [1/K], such as `200e9,0.002,1.2e-5` of steel. It is at its initial place at the initial temperature.
+    /// Allowed: modulus 1 to 1e15, thickness up to a fifth of the radius, expansion 0 to 0.01. Default: a rigid side.
     #[arg(long, value_name = "PA,M,1/K", value_parser = parse_shell, requires = "spheres")]
     shell: Option<Shell>,
-    /// By how many diameters of bed spheres give way at a bottom and top that stay. Allowed: 0 to 1000. Default: 1; 0 under a
+    /// Slack of spheres at a fixed bottom and top, in diameters of bed. Allowed: 0 to 1000. Default: 1; 0 under a
     /// top that presses.
     #[arg(long, value_name = "D", requires = "spheres")]
     give: Option<f64>,

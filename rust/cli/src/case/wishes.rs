@@ -56,8 +56,8 @@ pub struct Wishes {
     /// Top wall; values as for the left one. Default: insulated.
     #[arg(long, value_name = "WALL", value_parser = parse_wall, help_heading = "Walls and temperatures")]
     pub(super) top: Option<WallOverTime>,
-    /// Initial temperature of the whole bed [K]. Allowed: as for walls. Default: that of the coldest wall if walls of
-    /// different temperatures are given, else the usual one of the material.
+    /// Initial temperature of the whole bed [K]. Allowed: as for walls. Default: the coldest wall's if walls of
+    /// different temperatures are given, else a usual one of the material.
     #[arg(long, value_name = "K", help_heading = "Walls and temperatures")]
     pub(super) initial_temperature: Option<f64>,
     /// Heat released inside of the bed [W per m3 of bed]; negative for heat that is taken away. Allowed: -1e15 to 1e15.
@@ -72,8 +72,8 @@ pub struct Wishes {
     #[arg(long, value_name = "ETA", help_heading = "Packing at the start")]
     pub(super) porosity: Option<f64>,
     /// Initial pressure [Pa] instead of the porosity; the porosity with this pressure is then found by packing. Of spheres:
-    /// the vertical stress at the top, in addition to the porosity. Allowed: that of packings with a porosity of 0.06 to
-    /// 0.19; of spheres the range of the law. Default: with spheres 20000.
+    /// the vertical stress at the top, in addition to the porosity. Allowed: the range of packings with a porosity of 0.06
+    /// to 0.19; of spheres the range of the law. Default: with spheres 20000.
     #[arg(long, value_name = "PA", help_heading = "Packing at the start")]
     pub(super) pressure: Option<f64>,
     /// Model file of `msdd train`, for discs of another friction. The case gets a copy (constant/model.json), and the start

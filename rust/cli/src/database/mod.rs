@@ -31,7 +31,7 @@ pub enum Command {
     Slurm(slurm::Arguments),
     /// Join the parts (shards) of a plan to the database that a single process would have generated, byte for byte.
     Merge(MergeArguments),
-    /// Write a database as CSV, with FILE.columns.csv (units, meaning) and FILE.provenance.json beside it.
+    /// Write a database as CSV, with FILE.columns.csv (units, meaning) and FILE.provenance.json.
     Export(ExportArguments),
     /// Check the checksums, and laws that hold exactly for every row; print symmetry, size effects and scatter between
     /// packings. The exit status is 1 when a checksum does not agree or a law is violated.

@@ -30,7 +30,7 @@ use std::time::{Duration, Instant};
 
 #[derive(Subcommand)]
 pub enum Command {
-    /// Pack the initial model of a case, and print its statistics beside the paper's.
+    /// Pack the initial model of a case, and print its statistics next to the paper's.
     Pack(PackArguments),
     /// Run a case by discrete elements, with which the solver is compared, or continue a run that was killed.
     ///
@@ -46,7 +46,7 @@ pub enum Command {
     /// Print the differences of a run of the solver from discrete elements in the temperatures at the probes. Results with
     /// other grains than those of the case are refused; another start is a warning.
     Compare(compare::Arguments),
-    /// Make the reference scenes of a plan, and set the solver beside them.
+    /// Make the reference scenes of a plan, and compare the solver with them.
     Scenes(scenes::Arguments),
     /// Compare the solver with beds of spheres of a plan, packing by packing.
     ///
@@ -123,7 +123,7 @@ pub struct RunArguments {
     /// Number of times, evenly spaced over the run, at which profiles along x are recorded.
     #[arg(long, default_value_t = 21)]
     profiles: usize,
-    /// Largest mechanical time step [s]. Allowed: > 0, at most the interval. Default: that of the stability bound.
+    /// Largest mechanical time step [s]. Allowed: > 0, at most the interval. Default: the stability bound.
     #[arg(long)]
     time_step: Option<f64>,
     /// Least time between two checkpoints, from which a killed run continues [s of the clock]. Allowed: ≥ 0.

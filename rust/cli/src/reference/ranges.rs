@@ -21,10 +21,10 @@ const DIGITS: i32 = 3;
     --out rust/surrogate/src/compared.json"
 )]
 pub struct Arguments {
-    /// The plan of scenes of discs; beside it stands windows.csv.gz.
+    /// The plan of scenes of discs, next to windows.csv.gz.
     #[arg(long, value_name = "FILE")]
     scenes: PathBuf,
-    /// The plan of beds of spheres; beside it stands a folder of each name with elements.toml and the files elements-<seed>.csv.
+    /// The plan of beds of spheres, next to a folder of each name with elements.toml and the files elements-<seed>.csv.
     #[arg(long, value_name = "FILE")]
     beds: PathBuf,
     /// File for the ranges (JSON).

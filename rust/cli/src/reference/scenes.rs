@@ -34,8 +34,8 @@ pub struct Arguments {
     /// Only the scene of this name; may be given several times. Default: all.
     #[arg(long, value_name = "NAME")]
     only: Vec<String>,
-    /// Run the solver in the case folders, too, always anew, and print its errors beside the scatter of the discs; --bands and
-    /// --requests do that, too.
+    /// Run the solver in the case folders, too, always again, and print its errors next to the scatter of DEM; --bands and --requests
+    /// do that, too.
     #[arg(long)]
     solver: bool,
     /// Fit the error bands of the solver to the scenes for calibration, write their numbers into this file (JSON), and print

@@ -16,7 +16,7 @@ pub struct PackArguments {
     /// Number that all random choices follow from.
     #[arg(long, default_value_t = 1)]
     pub seed: u64,
-    /// Porosity of the whole box to pack discs to, overlaps counted once. The value that is printed is that of the averaging
+    /// Porosity of the whole box to pack discs to, overlaps counted once. The printed value refers to the averaging
     /// region. Allowed: 0.01 to 0.3. Default: required for discs.
     #[arg(long, required_unless_present = "spheres")]
     pub porosity: Option<f64>,
@@ -96,7 +96,7 @@ pub struct ExpandArguments {
     /// when contacts close, 0.02 when they open.
     #[arg(long)]
     pub rate: Option<f64>,
-    /// Of discs: contact stiffness of the walls over E r. Allowed: 1e-30 to 1e30. Default: that of the state.
+    /// Of discs: contact stiffness of the walls over E r. Allowed: 1e-30 to 1e30. Default: from the state.
     #[arg(long)]
     pub wall_stiffness: Option<f64>,
     /// Of discs: how equilibrium is found, by the damped motion of the grains, or by the minimiser FIRE, which is several
@@ -196,8 +196,7 @@ pub struct OfSpheres {
     /// Friction of spheres. Allowed: 0 to 2.
     #[arg(long, default_value_t = 0.3, requires = "spheres")]
     pub friction: f64,
-    /// Friction of spheres while the box closes; less packs denser. Allowed: 0 to that of the spheres. Default: that of the
-    /// spheres.
+    /// Friction of spheres while the box closes; less packs denser. Allowed: 0 to `friction`. Default: `friction`.
     #[arg(long, requires = "spheres")]
     pub packing_friction: Option<f64>,
     /// How far the packed box is opened to be shaken and pressed again with the friction of the spheres; 0: it is not.

@@ -29,10 +29,10 @@ pub enum Command {
     /// Print the averages of a state as JSON: of spheres the columns of their database, with stresses over E* and
     /// conductivities over those of solid and gas.
     Homogenise(HomogeniseArguments),
-    /// Measure the conductivity of a packing by conducting heat through all of it, grains at rest; prints it beside the
+    /// Measure the conductivity of a packing by conducting heat through all of it, grains at rest; prints it next to the
     /// homogenised conductivity as JSON.
     HeatCheck(HeatCheckArguments),
-    /// Draw the grains of a state and the forces between them as SVG, alone or beside a field of the solver.
+    /// Draw the grains of a state and the forces between them as SVG, alone or next to a field of the solver.
     Draw(crate::draw::Arguments),
 }
 

@@ -1,4 +1,4 @@
-//! The solver beside 20 000 spheres: what `compare-elements` printed for the cases `column` and `store`.
+//! Solver and DEM of 20 000 spheres: what `compare-elements` printed for the cases `column` and `store`.
 
 use crate::error::DocsError;
 use crate::gather::json::INPUTS;
@@ -58,8 +58,8 @@ pub fn tables(root: &Path, section: &mut Section) -> Result<(), DocsError> {
             row.push(wanted.to_string());
             table.push(row);
         }
-        let meaning = format!("case {case}: solver less discrete elements");
-        let columns = ["solver less elements", "rms", "worst", "one packing", "wanted"];
+        let meaning = format!("case {case}: solver minus DEM");
+        let columns = ["solver minus DEM", "rms", "worst", "one packing", "wanted"];
         section.add_table(
             &format!("beside-{case}"),
             &meaning,

@@ -36,6 +36,9 @@ fn numbers_and_tables_are_renewed_and_a_check_names_file_line_key_text_and_value
          | case | T |\n|---|---|\n| H | 1.0 |\n| C | 2.5 |\n\n<!--/-->\n"
     );
     assert_eq!((wrong, filled("agree", &text, true)), (Vec::new(), (text.clone(), Vec::new())));
+    let ranges = "T <!--= range:first@T-->1<!--/-->, of C <!--= range:first@T@C--><!--/-->\n";
+    let filled_in = "T <!--= range:first@T-->1.0 to 2.5<!--/-->, of C <!--= range:first@T@C-->2.5<!--/-->\n";
+    assert_eq!(filled("ranges", ranges, false), (filled_in.to_string(), Vec::new()));
     let (_, wrong) = filled("cell", &text.replace("2.5", "2.4"), true);
     assert!(wrong.len() == 1 && wrong[0].contains("'table:first' is"), "{wrong:?}");
 }
@@ -44,6 +47,8 @@ fn numbers_and_tables_are_renewed_and_a_check_names_file_line_key_text_and_value
 fn marks_that_lead_nowhere_are_errors_and_nothing_is_written() {
     for (name, text, message) in [
         ("unknown", "a <!--= cases.H.x-->1<!--/-->", "has no number 'cases.H.x'"),
+        ("no-column", "a <!--= range:first@p-->1<!--/-->", "has no numbers 'first@p'"),
+        ("no-row", "a <!--= range:first@T@D-->1<!--/-->", "has no numbers 'first@T@D'"),
         ("no-table", "<!--= table:second-->\n<!--/-->", "has no table 'second'"),
         ("unclosed", "a <!--= cases.H.T-->1 b", "the mark of 'cases.H.T' is not closed"),
         ("next-open", "a <!--= cases.H.T-->1 <!--= cases.rows-->2<!--/-->", "'cases.H.T' is not closed"),

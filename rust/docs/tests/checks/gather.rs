@@ -45,7 +45,7 @@ fn sections_are_numbers_and_tables_of_files_the_others_stay_and_missing_entries_
             .extend(["calibrate", "judge", "outside"].map(|of| format!("{name},{of},60,0.912,0.85,1.449\n")));
     }
     let names = ["T at the probes", "stress 1", "stress 2", "stress 3", "p", "K", "stress on the wall"];
-    let mut beside = "solver less elements     points      rms    worst  packings\n".to_string();
+    let mut beside = "solver minus DEM         points      rms    worst  packings\n".to_string();
     beside.extend(names.map(|name| format!("{name:<22}       20     0.85    -1.36      0.21 %\n")));
     let discs = "cases/reference/summary.json";
     let files = [

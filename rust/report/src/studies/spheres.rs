@@ -347,7 +347,7 @@ mod tests {
 
     #[test]
     fn tables_are_read() {
-        let table = "solver less elements     points      rms    worst\n\
+        let table = "solver minus DEM         points      rms    worst\n\
                      T at the probes             100     1.07    -2.05 % of the range\n\
                      stress 1                     20     8.70   -14.10 %\n\
                      p                            20     9.03   -14.80 %\n\

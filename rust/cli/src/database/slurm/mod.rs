@@ -28,9 +28,9 @@ const MOST_ATTEMPTS: u32 = 3;
 
 #[derive(Args)]
 #[command(
-    after_help = "The parts stand in a folder beside the database, FILE.parts, with the scripts and logs of the jobs. All nodes must \
+    after_help = "The parts are in the folder FILE.parts next to the database, with the scripts and logs of the jobs. All nodes must \
 see it, the plan and this program at the same path. Give the same command again, at any time: it submits what is missing and is not \
-queued, and says how far all parts are. Finished parts are never made again."
+queued, and reports the progress of all parts. Finished parts are never made again."
 )]
 pub struct Arguments {
     /// The plan (TOML), which says what to generate; see cases/database.
