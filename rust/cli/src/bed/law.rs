@@ -12,7 +12,7 @@ use msdd_surrogate::spheres::law::Law;
 use msdd_surrogate::spheres::model::SphereModel;
 use msdd_surrogate::spheres::state::State;
 use msdd_surrogate::spheres::tensor::{contraction, deviator, mean};
-use msdd_surrogate::spheres::tracks::{Track, follow};
+use msdd_surrogate::spheres::tracks::{Point as DataPoint, Step, Track, follow};
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
@@ -25,7 +25,7 @@ The law begins with stress, solid fraction, contacts and fabric of the first row
 wall, no weight and no other place of the bed plays a part, so that differences are those of the law. Under a lid
 that presses, and in a shell, 'stress kept' follows the stress along the axis instead of the strain there: where the side leaves a bed
 under its weight, a small error of the strain changes the pressure by decades. 'jamming' is by how much the solid fraction without
-load has grown, in units of 1e-5: of the spheres from their solid fraction and pressure, and of the law. 'shear' is the length of the
+load has grown, in units of 1e-5: of the spheres from their strain and pressure, and of the law. 'shear' is the length of the
 path of the shear strain.")]
 pub struct Arguments {
     /// Folders with elements.toml and elements-<seed>.csv, or elements.csv alone; or folders of such folders.
@@ -143,7 +143,7 @@ fn rows(law: &Law, track: &Track, times: &[f64], modulus: f64) -> Vec<Row> {
         compression: state.compression,
         jamming: state.jamming,
     };
-    let mut shear = 0.0;
+    let (mut shear, mut solid) = (0.0, track.packed.solid);
     let [along, kept] = [follow(law, &strained), follow(law, track)];
     let numbered = along.iter().zip(&kept).zip(times).enumerate();
     numbered
@@ -151,9 +151,13 @@ fn rows(law: &Law, track: &Track, times: &[f64], modulus: f64) -> Vec<Row> {
             if k > 0 {
                 let part = deviator(track.steps[k - 1].strain());
                 shear += contraction(&part, &part).sqrt();
+                // Not the solid fraction that was counted: the region stays where it is, while spheres enter and leave it.
+                let Step { thermal, stretch: [x, y, z, ..], .. } = track.steps[k - 1];
+                solid *= (1.0 + thermal).powi(3) / ((1.0 + x) * (1.0 + y) * (1.0 + z));
             }
             let data = track.point(k);
-            let spheres = Point { pressure: modulus * mean(data.stress), ..point(&data.state(law)) };
+            let state = DataPoint { solid, ..*data }.state(law);
+            let spheres = Point { pressure: modulus * mean(data.stress), ..point(&state) };
             Row { time, spheres, strained: point(strained), kept: point(kept), shear }
         })
         .collect()
