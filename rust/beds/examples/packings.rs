@@ -159,10 +159,9 @@ fn poured(spheres: usize, seed: u64) -> Result<(), Box<dyn Error>> {
     let mut ends = 0;
     bed.for_each_contact(|contact| ends += contact.spheres().filter(|&k| inside(k)).count());
     let count = (0..counted.len()).filter(|&k| inside(k)).count();
-    println!(
-        "poured - 0.3 {seed} {:.4} {:.3} - -",
-        solid_fraction(&bed, &floor, between, Width::Whole(container.area())),
-        ends as f64 / count as f64
-    );
+    let fraction = |range| solid_fraction(&bed, &floor, range, Width::Whole(container.area()));
+    println!("poured - 0.3 {seed} {:.4} {:.3} - -", fraction(between), ends as f64 / count as f64);
+    let layers = [0.5, 1.0, 2.0, 3.0].map(|n| 1.0 - fraction([0.0, n * diameter]));
+    println!("porosity of the first 0.5, 1, 2 and 3 diameters on the floor: {layers:.4?}");
     Ok(())
 }
