@@ -18,6 +18,7 @@ License
 #include "mappedPatchBase.H"
 #include "mixedFvPatchFields.H"
 #include "coupledPolyPatch.H"
+#include "wedgePolyPatch.H"
 #include "extrapolatedCalculatedFvPatchFields.H"
 #include "unitConversion.H"
 #include "OSspecific.H"
@@ -190,6 +191,11 @@ bool Foam::heatEquation::isAligned() const
     forAll(mesh_.boundary(), patchi)
     {
         const fvPatch& patch = mesh_.boundary()[patchi];
+        // No heat passes the sides of a wedge
+        if (isA<wedgePolyPatch>(patch.patch()))
+        {
+            continue;
+        }
         // Components of K are not those of the other side if it is turned
         aligned = aligned
          && (
@@ -250,7 +256,12 @@ void Foam::heatEquation::findFeet()
         const fvPatch& patch = mesh_.boundary()[patchi];
         // At a wall to another region both sides have to see the same heat,
         // and its condition knows nothing of the feet
-        if (patch.coupled() || isA<mappedPatchBase>(patch.patch()))
+        if
+        (
+            patch.coupled()
+         || isA<mappedPatchBase>(patch.patch())
+         || isA<wedgePolyPatch>(patch.patch())
+        )
         {
             continue;
         }

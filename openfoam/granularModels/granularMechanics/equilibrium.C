@@ -138,6 +138,12 @@ Foam::granularMechanicsModels::equilibrium::equilibrium
         pointMesh::New(mesh_),
         dimensionedVector(dimVelocity, Zero)
     ),
+    nodeVelocityBefore_
+    (
+        io("nodeVelocityBefore", read_),
+        pointMesh::New(mesh_),
+        dimensionedVector(dimVelocity, Zero)
+    ),
     wallTraction_
     (
         io("wallTraction", read_),
@@ -171,6 +177,7 @@ Foam::granularMechanicsModels::equilibrium::equilibrium
     ),
     u_(nodes_.dim()*nodes_.size(), Zero),
     velocity_(u_),
+    velocityBefore_(u_),
     traction_(u_),
     give_(u_),
     gravity_(properties.gravity()),
@@ -214,6 +221,11 @@ Foam::granularMechanicsModels::equilibrium::equilibrium
     }
     readNodes(nodeDisplacement_, u_);
     readNodes(nodeVelocity_, velocity_);
+    readNodes(nodeVelocityBefore_, velocityBefore_);
+    if (!law_->keepsAcceleration())
+    {
+        nodeVelocityBefore_.writeOpt() = IOobject::NO_WRITE;
+    }
     readNodes(wallTraction_, traction_);
     readNodes(wallGive_, give_);
     // Where 'give' was taken out at a restart, what was given stays
@@ -480,17 +492,16 @@ void Foam::granularMechanicsModels::equilibrium::compareWeight() const
 }
 
 
-Foam::List<Foam::vector>
+Foam::FixedList<Foam::vector, 3>
 Foam::granularMechanicsModels::equilibrium::directions
 (
     const label pointi
 ) const
 {
-    List<vector> result(nodes_.dim(), vector(Zero));
-    forAll(result, k)
-    {
-        result[k][k] = 1;
-    }
+    FixedList<vector, 3> result
+    ({
+        vector(1, 0, 0), vector(0, 1, 0), vector(0, 0, 1)
+    });
     const label r = nodes_.radial();
     if (r >= 0)
     {
@@ -512,7 +523,7 @@ void Foam::granularMechanicsModels::equilibrium::readNodes
     forAll(nodes_.front(), node)
     {
         const label pointi = nodes_.front()[node];
-        const List<vector> along(directions(pointi));
+        const FixedList<vector, 3> along(directions(pointi));
         for (label k = 0; k < dim; ++k)
         {
             to[dim*node + k] = from[pointi] & along[k];
@@ -534,7 +545,7 @@ void Foam::granularMechanicsModels::equilibrium::writeNodes
         forAll(*points, node)
         {
             const label pointi = (*points)[node];
-            const List<vector> along(directions(pointi));
+            const FixedList<vector, 3> along(directions(pointi));
             values[pointi] = Zero;
             for (label k = 0; k < dim; ++k)
             {

@@ -145,8 +145,20 @@ void Foam::granularMechanicsModels::equilibrium::findStiffness
     const scalar leastShare
 )
 {
+    if (!hasTangent_)
+    {
+        law_->addTangent();
+        hasTangent_ = true;
+    }
     coupled_ = !caution && !law_->elastic();
     law_->stiffen(caution, leastShare);
+}
+
+
+void Foam::granularMechanicsModels::equilibrium::findTangent()
+{
+    law_->findTangent();
+    hasTangent_ = true;
 }
 
 

@@ -58,6 +58,9 @@ static const scalar enoughGiving = 1e-3;
 static const scalar leastGiving = 1e-8;
 static const scalar leastShare = 0.05;
 
+//- Imbalance over the residual that an iteration probably mends
+static const scalar probable = 10;
+
 //- Grains leave walls and come back at most so often in a step
 static const label mostLeaving = 20;
 
@@ -155,7 +158,8 @@ bool Foam::granularMechanicsModels::equilibrium::strain(const nodeField& du)
     {
         return false;
     }
-    law_->find();
+    law_->find(wantsTangent_);
+    hasTangent_ = wantsTangent_;
     return true;
 }
 
@@ -279,7 +283,7 @@ Foam::scalar Foam::granularMechanicsModels::equilibrium::search
     left_ = imbalance(du, moved);
     if (!moved)
     {
-        law_->findTangent();
+        findTangent();
     }
     return 0;
 }
@@ -368,7 +372,7 @@ bool Foam::granularMechanicsModels::equilibrium::balance
     // After a guess that is accepted there is the tangent at its end
     if (pushed || (left_ > tolerance_ && !moved))
     {
-        law_->findTangent();
+        findTangent();
     }
     if (pushed)
     {
@@ -404,7 +408,10 @@ bool Foam::granularMechanicsModels::equilibrium::iterate
         ignored_ = local ? balanced*tolerance_ : 0;
         measure();
         const scalar before = norm_;
+        // If this is probably the last iteration, without a tangent
+        wantsTangent_ = left_ > probable*tolerance_;
         const scalar way = search(du, d, moved);
+        wantsTangent_ = true;
         moved = moved || way > 0;
         choice.learn(way, norm_/before, local);
         const bool ends =
@@ -460,7 +467,7 @@ bool Foam::granularMechanicsModels::equilibrium::giveWay
         last = left;
         if (!moved)
         {
-            law_->findTangent();
+            findTangent();
         }
         follow(du, nodeField(share*left));
         moved = true;
@@ -493,7 +500,7 @@ bool Foam::granularMechanicsModels::equilibrium::leaveWalls
         nodeField left(target + give - du);
         walls_.restrict(left);
         left_ = imbalance(du, moved);
-        law_->findTangent();
+        findTangent();
         follow(du, left);
         moved = true;
         if
@@ -534,6 +541,10 @@ bool Foam::granularMechanicsModels::equilibrium::advance(const label parts)
     if (parts == 1 && nodes_.dot(velocity_, velocity_) > 0)
     {
         guess_ = (time - lastTime_)*velocity_;
+        if (nodes_.dot(velocityBefore_, velocityBefore_) > 0)
+        {
+            guess_ += (time - lastTime_)*(velocity_ - velocityBefore_);
+        }
         walls_.release(guess_);
     }
     if (parts > 1)
@@ -575,6 +586,10 @@ bool Foam::granularMechanicsModels::equilibrium::advance(const label parts)
     }
     if (time > lastTime_)
     {
+        if (law_->keepsAcceleration())
+        {
+            velocityBefore_ = velocity_;
+        }
         velocity_ = (u_ - u)/(time - lastTime_);
     }
     lastTime_ = time;

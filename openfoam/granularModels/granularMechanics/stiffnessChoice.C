@@ -18,13 +18,6 @@ License
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
-Foam::label Foam::stiffnessChoice::caution() const
-{
-    static const label first[] = {1, 2, 0};
-    return rung_ < 3 ? first[rung_] : rung_;
-}
-
-
 void Foam::stiffnessChoice::learn
 (
     const scalar way,
@@ -33,7 +26,7 @@ void Foam::stiffnessChoice::learn
 )
 {
     stalled_ = left > stalling ? stalled_ + 1 : 0;
-    if (rung_ == wholeTangent && way < shortWay)
+    if (rung_ == 0 && way < shortWay)
     {
         resume_ = iterations_ + longPause;
     }
@@ -43,15 +36,14 @@ void Foam::stiffnessChoice::learn
     if (!(way > 0))
     {
         ++rung_;
-        rung_ += pauses && rung_ == wholeTangent;
         return;
     }
     slow_ += left > slow;
     rung_ =
-        slow_ > patience && !pauses ? wholeTangent
-      : left > stuck ? min(rung_ + 1, wholeTangent - label(pauses))
+        slow_ > patience && !pauses ? 0
+      : left > stuck ? min(rung_ + 1, unmobilised)
       : local && left < good ? rung_
-      : max(rung_ - 1, label(0));
+      : max(rung_ - 1, label(pauses));
     least_ =
         way < 1 ? mostOfLeast
       : left > slow ? max(0.5*least_, leastOfLeast)

@@ -375,7 +375,7 @@ void Foam::grainLaw::present()
 }
 
 
-void Foam::grainLaw::find()
+void Foam::grainLaw::find(const bool tangent)
 {
     // On entry a shear and its rotation are the components ij and ji of the
     // gradient, i before j; the angle about y turns z towards x
@@ -397,8 +397,17 @@ void Foam::grainLaw::find()
     {
         findStretch();
     }
-    grains_.tryStrain(strain_, found_, derivatives_);
+    grains_.tryStrain
+    (
+        strain_, found_, tangent ? derivatives_ : List<scalar*>()
+    );
     take();
+}
+
+
+void Foam::grainLaw::addTangent()
+{
+    grains_.tryStrain(strain_, found_, derivatives_);
 }
 
 
@@ -554,7 +563,7 @@ Foam::scalar Foam::elasticLaw::residual() const
 }
 
 
-void Foam::elasticLaw::find()
+void Foam::elasticLaw::find(const bool)
 {
     const scalarField& thermal = grains_.thermalStrain().primitiveField();
     const bool solid = mesh_.dim() == 3;

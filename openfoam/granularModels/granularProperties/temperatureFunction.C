@@ -118,6 +118,10 @@ void Foam::temperatureFunction::sample(const dictionary& dict)
 
 void Foam::temperatureFunction::check(const scalar value, const scalar T) const
 {
+    if (value >= least_ && value <= most_)
+    {
+        return;
+    }
     if (!keys_.allows(usual_.name(), value))
     {
         FatalErrorInFunction
@@ -127,6 +131,8 @@ void Foam::temperatureFunction::check(const scalar value, const scalar T) const
             << usual_.dimensions()
             << exit(FatalError);
     }
+    least_ = min(least_, value);
+    most_ = max(most_, value);
 }
 
 

@@ -81,6 +81,12 @@ void Foam::granularState::tryStrain
     query.rotation = turned.cdata();
     query.temperature = model_->spatial() ? temperature_.cdata() : nullptr;
     answer(query, deformedK_, deformedSigma_);
+    if (model_->conductsApart())
+    {
+        query.conductivityXX = query.conductivityYY = query.conductivityZZ =
+            query.conductivityXY = query.conductivityXZ =
+            query.conductivityYZ = nullptr;
+    }
     query.tangent = tangent.cdata();
     query.trial = true;
     model_->advance(query);
@@ -97,13 +103,28 @@ void Foam::granularState::tryStrain
 
 void Foam::granularState::acceptStrain()
 {
+    originStrain_ = 0;
+    if (model_->conductsApart())
+    {
+        // The conductivity of the state that was tried, which no strain leaves
+        // as it is
+        granularModel::query query;
+        query.size = mesh_.nCells();
+        query.state = deformed_.pointers.cdata();
+        query.nextState = deformed_.pointers.cdata();
+        query.strain = originStrain_.cdata();
+        query.totalStrain = thermalStrain_.primitiveField().cdata();
+        query.temperature = temperature_.cdata();
+        answer(query, deformedK_, deformedSigma_);
+        query.trial = true;
+        model_->advance(query);
+    }
     forAll(state_, i)
     {
         state_[i].primitiveFieldRef() = deformed_.values[i];
     }
     // Further strains start from here
     deformed_.swap(origin_);
-    originStrain_ = 0;
     K_ = deformedK_;
     sigma_ = deformedSigma_;
     setWallResistance();

@@ -31,7 +31,7 @@ void Foam::granularState::findReaders()
     ({
         "conductivity", "stress", "pressure", "particleDensity", "inRegion",
         "spread", "thermalStrain", "D", "nodeDisplacement", "nodeVelocity",
-        "wallTraction", "wallGive", "areaRatio"
+        "nodeVelocityBefore", "wallTraction", "wallGive", "areaRatio"
     });
     const dictionary functions =
         mesh_.time().controlDict().subOrEmptyDict("functions");

@@ -545,7 +545,10 @@ Foam::label Foam::granularModels::spheres::advance(const query& cells)
     const temperatureFunction& k = properties_.conductivityFunction();
     const auto along = [&](const temperatureFunction& f, const bool wanted)
     {
-        scalarField values(wanted && !f.isNumber() ? cells.size : 0);
+        scalarField values
+        (
+            wanted && cells.conductivityXX && !f.isNumber() ? cells.size : 0
+        );
         forAll(values, row)
         {
             values[row] = f.value(cells.temperature[row]);

@@ -106,6 +106,11 @@ static const keyTable ownFields
             "restart, out"
         },
         {
+            "nodeVelocityBefore",
+            "of spheres: the rate over the step before the last", "m/s", "any",
+            "restart, out"
+        },
+        {
             "wallTraction", "friction force of walls per area", "Pa", "any",
             "restart, out"
         },

@@ -16,7 +16,8 @@ const CONDITIONS: [&str; 5] =
 /// Function objects that say the same of a half as of the whole, once their points are those of the half.
 const FUNCTIONS: [&str; 5] = ["probes", "spaceProbes", "wallPressure", "heatAudit", "massAudit"];
 /// Fields with components that change their sign in a mirror.
-const TURNED: [&str; 6] = ["D", "U", "nodeDisplacement", "nodeVelocity", "stress", "conductivity"];
+const TURNED: [&str; 7] =
+    ["D", "U", "nodeDisplacement", "nodeVelocity", "nodeVelocityBefore", "stress", "conductivity"];
 /// A point on a middle plane is moved into the half by this share of the box, so that it lies in a cell.
 const INSIDE: f64 = 1e-6;
 

@@ -6,11 +6,11 @@ use crate::batch::{check_length, outputs};
 use crate::columns::{Input, Output};
 use crate::handles::SpheresHandle;
 use crate::si::LARGEST_STRESS;
-use crate::sphere_material::Material;
+use crate::sphere_material::{GasThere, Material};
 use crate::status::{Failure, status, value};
 use ::msdd_surrogate::kernel::{LANES, Lanes};
 use ::msdd_surrogate::models::BUILTIN;
-use ::msdd_surrogate::spheres::model::{Answers, Block, COLUMNS, NAMES, SphereModel, allowed};
+use ::msdd_surrogate::spheres::model::{Answers, Block, COLUMNS, NAMES, SphereModel, Wanted, allowed};
 use ::msdd_surrogate::spheres::state::Known;
 use ::msdd_surrogate::spheres::tensor::Tensor;
 use std::ffi::c_char;
@@ -293,9 +293,9 @@ impl<'a> Columns<'a> {
 
     fn check(&self) -> Result<(), Failure> {
         for (k, column) in self.state.iter().enumerate() {
-            column.check_finite()?;
             let ([least, most], range) = allowed(k);
-            column.check_range(least, most, range)?;
+            // A number that is not finite is out of every range.
+            column.check_range(least, most, range).or_else(|error| column.check_finite().and(Err(error)))?;
         }
         for column in self.thermal.iter().chain(&self.strain).chain(&self.rotation) {
             column.check_finite()?;
@@ -320,6 +320,16 @@ impl<'a> Columns<'a> {
         Ok(())
     }
 
+    fn wanted(&self) -> Wanted {
+        // Columns of a row of the tangent, up to the last that is wanted in any of them.
+        let strains = self.tangent.iter().enumerate().filter(|(_, column)| column.is_wanted());
+        let conducts = self.conductivity.iter().chain([&self.gas, &self.radiation]);
+        Wanted {
+            strains: strains.map(|(k, _)| k % 6 + 1).max().unwrap_or(0),
+            conduction: self.outside.is_wanted() || { conducts }.any(Output::is_wanted),
+        }
+    }
+
     /// Takes all cells through the step; returns the number of those outside of the range.
     fn advance(&self, model: &SphereModel, material: &Material, cells: usize) -> Result<usize, Failure> {
         let one = |column: &Option<Input>, usual, cell| column.map_or(usual, |column: Input| column.at(cell));
@@ -329,13 +339,13 @@ impl<'a> Columns<'a> {
                 one(&self.emissivity, material.emissivity(), cell),
             )
         };
+        let wanted = self.wanted();
         // Everything that can be refused, before anything is written.
-        for cell in 0..cells {
-            there(cell).gas(one(&self.temperature, USUAL_TEMPERATURE, cell))?;
-        }
+        let gas_at = |cell| there(cell).gas(one(&self.temperature, USUAL_TEMPERATURE, cell));
+        let conducting = if wanted.conduction { cells } else { 0 };
+        let gases: Vec<GasThere> = (0..conducting).map(gas_at).collect::<Result<_, _>>()?;
         let mut count = 0;
         let (mut block, mut answers) = (Block::default(), Answers::default());
-        let mut gases = Vec::with_capacity(LANES);
         for first in (0..cells).step_by(LANES) {
             let here = (cells - first).min(LANES);
             // What is not given is 0.
@@ -348,13 +358,9 @@ impl<'a> Columns<'a> {
             if let Some(column) = &self.thermal {
                 block.thermal = column.lanes(first);
             }
-            gases.clear();
-            for cell in first..first + here {
-                let gas = there(cell).gas(one(&self.temperature, USUAL_TEMPERATURE, cell))?;
-                block.gas_number[cell - first] = gas.number;
-                gases.push(gas);
-            }
-            model.advance_block(&block, here, !self.tangent.is_empty(), &mut answers);
+            let gases = gases.get(first..first + here).unwrap_or_default();
+            block.gas_number.iter_mut().zip(gases).for_each(|(number, gas)| *number = gas.number);
+            model.advance_block(&block, here, wanted, &mut answers);
             let write = |columns: &[Output<f64>], lanes: &[Lanes]| {
                 columns.iter().zip(lanes).for_each(|(column, lanes)| column.write(first, lanes));
             };
@@ -367,17 +373,19 @@ impl<'a> Columns<'a> {
                 }
             }
             self.solid.write(first, &answers.solid);
-            for (k, gas) in gases.iter().enumerate() {
-                let cell = first + k;
+            for k in 0..here {
+                let (cell, gas) = (first + k, gases.get(k));
+                let of_gas = gas.is_some_and(|gas| gas.outside);
+                let outside = answers.outside_at(k) | if of_gas { OUTSIDE_BY_GAS } else { 0 };
+                self.outside.write_one(cell, outside);
+                count += usize::from(outside > 0);
+                let Some(gas) = gas else { continue };
                 let found = there(cell).conductivity(&answers, k, gas);
-                let outside = answers.outside_at(k) | if gas.outside { OUTSIDE_BY_GAS } else { 0 };
                 for (column, value) in self.conductivity.iter().zip(found.tensor) {
                     column.write_one(cell, value);
                 }
                 self.gas.write_one(cell, found.gas);
                 self.radiation.write_one(cell, found.radiation);
-                self.outside.write_one(cell, outside);
-                count += usize::from(outside > 0);
             }
         }
         Ok(count)

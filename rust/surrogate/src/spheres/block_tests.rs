@@ -1,6 +1,6 @@
 //! Answers for blocks of cells.
 
-use super::model::{Answer, Answers, Block, Increment, columns};
+use super::model::{Answer, Answers, Block, Increment, Wanted, columns};
 use super::tests::{model, packing, random, tensor};
 use crate::kernel::{LANES, with_every_set};
 use rand_chacha::ChaCha8Rng;
@@ -45,7 +45,8 @@ fn answers_do_not_depend_on_the_instruction_set_nor_on_the_other_cells() {
             let mut first: Option<Vec<Vec<u64>>> = None;
             with_every_set(|set| {
                 let mut answers = Answers::default();
-                model.advance_block(&block, LANES, tangent, &mut answers);
+                let wanted = Wanted { strains: if tangent { 6 } else { 0 }, conduction: true };
+                model.advance_block(&block, LANES, wanted, &mut answers);
                 let all: Vec<Vec<u64>> = (0..LANES).map(|lane| bits(&answers.at(lane))).collect();
                 for (lane, (state, strain)) in cells.iter().enumerate() {
                     let alone = model.advance(state, strain, block.gas_number[lane], tangent);
@@ -53,6 +54,17 @@ fn answers_do_not_depend_on_the_instruction_set_nor_on_the_other_cells() {
                     // The stress does not depend on whether the tangent is asked for.
                     let without = model.advance(state, strain, block.gas_number[lane], false);
                     assert_eq!(without.stress.map(f64::to_bits), alone.stress.map(f64::to_bits));
+                }
+                // Nor does the tangent on how many of its columns are, and nothing on whether the conduction is.
+                let wanted = Wanted { strains: if tangent { 4 } else { 0 }, conduction: false };
+                let mut fewer = answers.clone();
+                model.advance_block(&block, LANES, wanted, &mut fewer);
+                for row in &mut answers.tangent {
+                    row[4..].fill([0.0; LANES]);
+                }
+                for lane in 0..LANES {
+                    assert_eq!(bits(&answers.at(lane)).len(), bits(&fewer.at(lane)).len());
+                    assert!(bits(&answers.at(lane)) == bits(&fewer.at(lane)), "{set}, cell {lane}");
                 }
                 assert!(first.get_or_insert_with(|| all.clone()) == &all, "{set}");
             });

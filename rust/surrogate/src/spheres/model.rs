@@ -219,7 +219,17 @@ impl Default for Block {
     }
 }
 
-/// The answers for a block, in columns: those of [`Answer`].
+/// What is wanted of the answers for a block, beside state and stress.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Wanted {
+    /// The derivatives of the stress by this many of the strains xx, yy, zz, xy, xz, yz: 0, 4 (in the plane) or 6. A number between is
+    /// taken as the next larger one.
+    pub strains: usize,
+    /// κ_c and κ_g.
+    pub conduction: bool,
+}
+
+/// The answers for a block, in columns: those of [`Answer`]. What is not wanted stays as it is.
 #[derive(Clone, Debug)]
 pub struct Answers {
     pub state: [Lanes; COLUMNS],
@@ -278,7 +288,7 @@ struct Advance<'a> {
     model: &'a SphereModel,
     block: &'a Block,
     cells: usize,
-    tangent: bool,
+    wanted: Wanted,
     answers: &'a mut Answers,
 }
 
@@ -286,9 +296,11 @@ impl Task for Advance<'_> {
     #[inline(always)]
     fn run<V: Vector>(self) {
         for first in (0..self.cells).step_by(V::WIDTH) {
-            match self.tangent {
-                true => self.model.some::<V, Dual<V>>(self.block, first, self.answers),
-                false => self.model.some::<V, V>(self.block, first, self.answers),
+            let Wanted { strains, conduction } = self.wanted;
+            match strains {
+                0 => self.model.some::<V, V>(self.block, first, conduction, self.answers),
+                1..=4 => self.model.some::<V, Dual<V, 4>>(self.block, first, conduction, self.answers),
+                _ => self.model.some::<V, Dual<V, 6>>(self.block, first, conduction, self.answers),
             }
         }
     }
@@ -391,19 +403,26 @@ impl SphereModel {
             gas_number: all(gas_number),
         };
         let mut answers = Answers::default();
-        self.advance_block(&block, 1, tangent, &mut answers);
+        let wanted = Wanted { strains: if tangent { 6 } else { 0 }, conduction: true };
+        self.advance_block(&block, 1, wanted, &mut answers);
         answers.at(0)
     }
 
     /// Strains the first `cells` of a block. The answer for a cell does not depend on the others, nor on the processor. That for others
-    /// of the block stays as it is or is that of their columns; the tangent stays where it is not asked for.
-    pub fn advance_block(&self, block: &Block, cells: usize, tangent: bool, answers: &mut Answers) {
-        dispatch_narrow(Advance { model: self, block, cells: cells.min(LANES), tangent, answers });
+    /// of the block stays as it is or is that of their columns.
+    pub fn advance_block(&self, block: &Block, cells: usize, wanted: Wanted, answers: &mut Answers) {
+        dispatch_narrow(Advance { model: self, block, cells: cells.min(LANES), wanted, answers });
     }
 
     /// The answers for the cells from `first` on, by numbers with their derivatives or without.
     #[inline(always)]
-    fn some<V: Vector, N: Differentiable<V>>(&self, block: &Block, first: usize, answers: &mut Answers) {
+    fn some<V: Vector, N: Differentiable<V>>(
+        &self,
+        block: &Block,
+        first: usize,
+        conduction: bool,
+        answers: &mut Answers,
+    ) {
         let law = &self.file.law;
         let mut before = [V::zero(); COLUMNS];
         for (value, column) in before.iter_mut().zip(&block.state) {
@@ -454,6 +473,12 @@ impl SphereModel {
         for (column, value) in answers.stress.iter_mut().zip(&stress) {
             value.write(&mut column[first..]);
         }
+        next.solid().write(&mut answers.solid[first..]);
+        next.coordination.write(&mut answers.coordination[first..]);
+        outside.write(&mut answers.outside[first..]);
+        if !conduction {
+            return;
+        }
         for (column, value) in
             answers.contact.iter_mut().zip(&readout.contact(&self.file.law.contacts, &next, &stress))
         {
@@ -463,8 +488,5 @@ impl SphereModel {
         for (column, value) in answers.gas_deviator.iter_mut().zip(&readout.gas_deviator(&next)) {
             value.write(&mut column[first..]);
         }
-        next.solid().write(&mut answers.solid[first..]);
-        next.coordination.write(&mut answers.coordination[first..]);
-        outside.write(&mut answers.outside[first..]);
     }
 }

@@ -7,7 +7,7 @@ use crate::kernel::elementary;
 use crate::kernel::vector::Arithmetic;
 use std::ops::{Add, Mul, Sub};
 
-/// Number of strains by which is differentiated.
+/// Number of strains.
 const STRAINS: usize = 6;
 
 pub trait Number: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> {
@@ -117,19 +117,30 @@ impl<V: Arithmetic> Number for V {
     }
 }
 
-/// Values and their derivatives by the strains.
-#[derive(Clone, Copy, Debug)]
-pub struct Dual<V> {
-    pub value: V,
-    pub by: [V; STRAINS],
+/// An array of what a loop gives. A closure would not always be compiled for the instruction set of its caller.
+macro_rules! each {
+    ($k:ident => $of:expr) => {{
+        let mut all = [V::zero(); D];
+        for $k in 0..D {
+            all[$k] = $of;
+        }
+        all
+    }};
 }
 
-impl<V: Arithmetic> Number for Dual<V> {
+/// Values and their derivatives by the first `D` strains.
+#[derive(Clone, Copy, Debug)]
+pub struct Dual<V, const D: usize> {
+    pub value: V,
+    pub by: [V; D],
+}
+
+impl<V: Arithmetic, const D: usize> Number for Dual<V, D> {
     type Values = V;
 
     #[inline(always)]
     fn of(values: V) -> Self {
-        Self { value: values, by: [V::zero(); STRAINS] }
+        Self { value: values, by: [V::zero(); D] }
     }
     #[inline(always)]
     fn value(self) -> V {
@@ -137,7 +148,7 @@ impl<V: Arithmetic> Number for Dual<V> {
     }
     #[inline(always)]
     fn chain(self, value: V, derivative: V) -> Self {
-        Self { value, by: six!(k => self.by[k] * derivative) }
+        Self { value, by: each!(k => self.by[k] * derivative) }
     }
     #[inline(always)]
     fn plus_values(self, addend: V) -> Self {
@@ -148,34 +159,34 @@ impl<V: Arithmetic> Number for Dual<V> {
         let (a, b) = (self.value, than.value);
         Self {
             value: a.where_greater(b, this.value, other.value),
-            by: six!(k => a.where_greater(b, this.by[k], other.by[k])),
+            by: each!(k => a.where_greater(b, this.by[k], other.by[k])),
         }
     }
 }
 
-impl<V: Arithmetic> Add for Dual<V> {
+impl<V: Arithmetic, const D: usize> Add for Dual<V, D> {
     type Output = Self;
     #[inline(always)]
     fn add(self, other: Self) -> Self {
-        Self { value: self.value + other.value, by: six!(k => self.by[k] + other.by[k]) }
+        Self { value: self.value + other.value, by: each!(k => self.by[k] + other.by[k]) }
     }
 }
 
-impl<V: Arithmetic> Sub for Dual<V> {
+impl<V: Arithmetic, const D: usize> Sub for Dual<V, D> {
     type Output = Self;
     #[inline(always)]
     fn sub(self, other: Self) -> Self {
-        Self { value: self.value - other.value, by: six!(k => self.by[k] - other.by[k]) }
+        Self { value: self.value - other.value, by: each!(k => self.by[k] - other.by[k]) }
     }
 }
 
-impl<V: Arithmetic> Mul for Dual<V> {
+impl<V: Arithmetic, const D: usize> Mul for Dual<V, D> {
     type Output = Self;
     #[inline(always)]
     fn mul(self, other: Self) -> Self {
         Self {
             value: self.value * other.value,
-            by: six!(k => self.by[k].fused(other.value, other.by[k] * self.value)),
+            by: each!(k => self.by[k].fused(other.value, other.by[k] * self.value)),
         }
     }
 }
@@ -204,19 +215,21 @@ impl<V: Arithmetic> Differentiable<V> for V {
     }
 }
 
-impl<V: Arithmetic> Differentiable<V> for Dual<V> {
+impl<V: Arithmetic, const D: usize> Differentiable<V> for Dual<V, D> {
     const DIFFERENTIATES: bool = true;
 
     #[inline(always)]
     fn strains(values: [V; STRAINS]) -> [Self; STRAINS] {
         six!(k => {
-            let mut by = [V::zero(); STRAINS];
-            by[k] = V::all(1.0);
+            let mut by = [V::zero(); D];
+            if k < D {
+                by[k] = V::all(1.0);
+            }
             Self { value: values[k], by }
         })
     }
     #[inline(always)]
     fn derivatives(self) -> [V; STRAINS] {
-        self.by
+        six!(k => if k < D { self.by[k] } else { V::zero() })
     }
 }
