@@ -241,8 +241,8 @@ typedef struct msdd_sphere_batch {
     uint8_t *outside;              /**< what is outside of the training, as a sum: 1 the jamming fraction, 2 the pressure, 4 the
                                         stress ratio after the step; 8 the gas: its number, or where it is so thin that its
                                         molecules fly from grain to grain, or colder or hotter than its properties are known */
-    size_t outside_cells;          /**< number of these cells. Where neither conductivities nor `outside` are wanted, the gas is not
-                                        looked at */
+    size_t outside_cells;          /**< number of these cells. Where stress or tangent are wanted, but neither conductivities nor
+                                        `outside`, the gas is not looked at */
 } msdd_sphere_batch;
 
 /** Loads a law. `source`: NULL or "builtin" for the one compiled into the library, else the path of a model file. On success

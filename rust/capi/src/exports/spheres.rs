@@ -323,11 +323,11 @@ impl<'a> Columns<'a> {
     fn wanted(&self) -> Wanted {
         // Columns of a row of the tangent, up to the last that is wanted in any of them.
         let strains = self.tangent.iter().enumerate().filter(|(_, column)| column.is_wanted());
+        let strains = strains.map(|(k, _)| k % 6 + 1).max().unwrap_or(0);
         let conducts = self.conductivity.iter().chain([&self.gas, &self.radiation]);
-        Wanted {
-            strains: strains.map(|(k, _)| k % 6 + 1).max().unwrap_or(0),
-            conduction: self.outside.is_wanted() || { conducts }.any(Output::is_wanted),
-        }
+        let mechanics_alone = strains > 0 || self.stress.iter().any(Output::is_wanted);
+        let conduction = self.outside.is_wanted() || { conducts }.any(Output::is_wanted) || !mechanics_alone;
+        Wanted { strains, conduction }
     }
 
     /// Takes all cells through the step; returns the number of those outside of the range.
