@@ -60,12 +60,17 @@ void Foam::granularFlows::bedFlow::addFaces()
         const scalar m = flux_[facei];
         const bool forward = m > 0;
         const label U = forward ? P : N, D = forward ? N : P;
-        const cellValues p(valuesOf(P)), n(valuesOf(N));
-        const cellValues& u = forward ? p : n;
-        const cellValues& d = forward ? n : p;
         const vector normal(Sf[facei]/magSf[facei]);
+        const auto through = [&](const label celli)
+        {
+            return dispersion
+            (
+                massFlux_[celli], diffusionAlong_[celli],
+                diffusionAcross_[celli], normal
+            );
+        };
         const scalar k =
-            (weight[facei]*p.through(normal) + (1 - weight[facei])*n.through(normal))
+            (weight[facei]*through(P) + (1 - weight[facei])*through(N))
            *magSf[facei]*delta[facei];
         gas.diag()[P] += k;
         gas.diag()[N] += k;
@@ -75,6 +80,7 @@ void Foam::granularFlows::bedFlow::addFaces()
         {
             continue;
         }
+        const cellValues u(valuesOf(U)), d(valuesOf(D));
         const weights c
         (
             carry(u, &d, mag(m), Cf[facei] - C[U], C[D] - C[U]).w
@@ -122,8 +128,10 @@ void Foam::granularFlows::bedFlow::addBetween(const label patchi)
         const vector normal(Sf[facei]/magSf[facei]);
         const scalar k =
             (
-                weight[facei]*here.through(normal)
-              + (1 - weight[facei])*there.through(normal)
+                weight[facei]
+               *dispersion(here.G, here.along, here.across, normal)
+              + (1 - weight[facei])
+               *dispersion(there.G, there.along, there.across, normal)
             )*magSf[facei]*delta[facei];
         gas.matrix.diag()[P] += k;
         gas.between[patchi][facei] += k;
