@@ -83,10 +83,10 @@ Foam::granularFlows::pressure::pressure
         dimensionedVector(dimless, Zero),
         extrapolatedCalculatedFvPatchVectorField::typeName
     ),
-    fluxBefore_(flux_),
     present_("presentFlux", flux_),
     slope_("slopeOfFlux", flux_),
-    thermal_("thermalFlux", flux_)
+    thermal_("thermalFlux", flux_),
+    fluxBefore_(flux_)
 {
     massFlux_.writeOpt() = IOobject::AUTO_WRITE;
     flux_.writeOpt() = IOobject::AUTO_WRITE;
