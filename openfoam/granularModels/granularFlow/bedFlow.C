@@ -16,6 +16,7 @@ License
 
 #include "bedFlow.H"
 #include "foamVersions.H"
+#include "fvcSurfaceIntegrate.H"
 #include "OFstream.H"
 
 #include <cmath>
@@ -127,25 +128,23 @@ void Foam::granularFlows::bedFlow::setFlux(const bool first)
     findFlux(first);
     inflow_ = massThatEnters();
     flows_ = gMax(mag(flux_.primitiveField())) > 0 || inflow_ > 0;
-    unbalanced_ = 0;
-    forAll(flux_, facei)
-    {
-        unbalanced_[mesh_.owner()[facei]] += flux_[facei];
-        unbalanced_[mesh_.neighbour()[facei]] -= flux_[facei];
-    }
-    forAll(flux_.boundaryField(), patchi)
-    {
-        const scalarField& m = flux_.boundaryField()[patchi];
-        const labelUList& cells = mesh_.boundary()[patchi].faceCells();
-        forAll(m, facei)
-        {
-            unbalanced_[cells[facei]] += m[facei];
-        }
-    }
+    unbalanced_ = netOutflow(flux_);
     if (coupled_)
     {
         massFlux_.correctBoundaryConditions();
     }
+}
+
+
+Foam::tmp<Foam::scalarField> Foam::granularFlows::bedFlow::netOutflow
+(
+    const surfaceScalarField& flux
+) const
+{
+    tmp<scalarField> result(new scalarField(mesh_.nCells(), Zero));
+    fvc::surfaceIntegrate(result.ref(), flux);
+    result.ref() *= mesh_.V();
+    return result;
 }
 
 

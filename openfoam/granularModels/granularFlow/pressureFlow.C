@@ -41,7 +41,8 @@ namespace granularFlows
     //- Share of the last change above which iterations are combined
     static const scalar slow = 0.01;
 
-    //- Share of the mass that leaves the pores from which it is told
+    //- Mass that the pores lose or gain, over what enters, above which the run
+    //- reports a doubt
     static const scalar mostExpelled = 0.05;
 }
 }

@@ -424,20 +424,7 @@ Foam::scalar Foam::granularFlows::pressure::iterate()
     surfaceScalarField flux(present_);
 
     // With the openings as they are
-    scalarField source(psi_.size(), Zero);
-    forAll(flux, facei)
-    {
-        source[mesh_.owner()[facei]] -= flux[facei];
-        source[mesh_.neighbour()[facei]] += flux[facei];
-    }
-    forAll(flux.boundaryField(), patchi)
-    {
-        const labelUList& cells = mesh_.boundary()[patchi].faceCells();
-        forAll(cells, facei)
-        {
-            source[cells[facei]] -= flux.boundaryField()[patchi][facei];
-        }
-    }
+    scalarField source(-netOutflow(flux));
     const scalarField before(psi_.primitiveField());
     solveChange(source, linearTolerance);
     addChange(flux);

@@ -128,6 +128,30 @@ radial() { # liquid from the inner to the outer side of a quarter of a ring, rad
             awk "BEGIN { split(\"$errors\", e, \" \"); exit !(e[2] <= 2e-3 && e[1]/e[2] >= 3.5) }"
     done
 }
+small() { # grains of 10 um on irregular triangles in mm: one and three processes, balance
+    local e
+    driven pressure-small 8 'left { massFlow 1e-9; temperature 400; } right { temperature 300; }' 'gas helium; temperatures two;' \
+        'endTime 0.01; deltaT 0.001; writeInterval 10;' '' 2
+    rm -r constant/polyMesh
+    awk -v kind=box -v n=20 -v m=10 -v width=1 -v height=0.5 -v irregular=1 -f "$here/mesh.awk" > mesh.msh
+    logged gmshToFoam mesh.msh
+    logged transformPoints -scale '(0.001 0.001 0.001)'
+    logged foamDictionary -entry entry0.frontAndBack.type -set empty constant/polyMesh/boundary
+    sed -i 's/meanRadius 0.01/meanRadius 5e-6/' constant/granularProperties
+    rm -rf "$work/pressure-small-parts"
+    cp -r . "$work/pressure-small-parts"
+    logged msddFoam
+    e=$(flow_closes)
+    check "grains of 10 um on triangles in mm: heat closes to $e <= 1e-9" below "$e" 1e-9
+    e=$(of_summary most_newton_iterations)
+    check "and take $e <= 20 Newton iterations" below "$e" 20
+    cd "$work/pressure-small-parts"
+    in_parts '3 1'
+    side_by_side 3
+    logged reconstructPar
+    e=$(worst_of "$work/pressure-small" 0.01)
+    check "and on 3 1 processes: temperatures differ by $e <= 1e-10" below "$e" 1e-10
+}
 rest() { # air of one temperature between a closed foot and an open top does not flow; the pressure is that of its column
     local e
     driven pressure-rest 20 'out { temperature 300; }' 'gas air; temperatures two;' "$once" '' 2 10
@@ -221,6 +245,7 @@ layers
 as_through
 hand_over
 radial
+small
 rest
 convection
 stratified
