@@ -328,7 +328,11 @@ void Foam::heatEquation::setStorage(const scalarField& Tstar, const scalar tau)
 }
 
 
-bool Foam::heatEquation::hasSettled(const scalarField& before) const
+bool Foam::heatEquation::hasSettled
+(
+    const scalarField& before,
+    const scalar sufficient
+) const
 {
     const scalarField& T = T_.primitiveField();
     scalar change = 0, size = 0;
@@ -339,7 +343,7 @@ bool Foam::heatEquation::hasSettled(const scalarField& before) const
     }
     return
         returnReduce(change, maxOp<scalar>())
-     <= settled*returnReduce(size, maxOp<scalar>());
+     <= max(settled*returnReduce(size, maxOp<scalar>()), sufficient);
 }
 
 
@@ -379,7 +383,8 @@ void Foam::heatEquation::solveBed
 (
     const scalarField& Tstar,
     const scalar tau,
-    const granularState::conductivityColumns& K
+    const granularState::conductivityColumns& K,
+    const scalar sufficient
 )
 {
     // Explicit parts, and a heat capacity or sources that depend on the
@@ -414,7 +419,7 @@ void Foam::heatEquation::solveBed
         {
             flowed = flow_->solve
             (
-                TEqn_, tau, controls_.get<scalar>("tolerance")
+                TEqn_, tau, controls_.get<scalar>("tolerance"), sufficient
             );
         }
         else
@@ -427,7 +432,7 @@ void Foam::heatEquation::solveBed
             corrector >= least
          && sourced
          && flowed
-         && (heat_.isNumber() || hasSettled(before))
+         && (heat_.isNumber() || hasSettled(before, sufficient))
         )
         {
             break;
@@ -458,7 +463,11 @@ void Foam::heatEquation::solve
         setTensor(K);
     }
     flow_->beginStage();
-    neighbours_.couple(tau, [&]() { solveBed(Tstar, tau, K); });
+    neighbours_.couple
+    (
+        tau,
+        [&](const scalar sufficient) { solveBed(Tstar, tau, K, sufficient); }
+    );
 
     // Constraints cut their cells off from the walls
     const fvScalarMatrix& equation = free_.valid() ? free_() : TEqn_;

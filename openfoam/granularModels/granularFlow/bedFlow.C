@@ -342,6 +342,7 @@ void Foam::granularFlows::bedFlow::beginStage()
     ++stages_;
     lastChange_ = 0;
     lastRatio_ = 0;
+    lastShare_ = 0;
     if (coupled_)
     {
         gasT_.correctBoundaryConditions();
@@ -368,7 +369,8 @@ bool Foam::granularFlows::bedFlow::solve
 (
     const fvScalarMatrix& bed,
     const scalar tau,
-    const scalar tolerance
+    const scalar tolerance,
+    const scalar sufficient
 )
 {
     if (fluxDependsOnT() && lastChange_ > 0)
@@ -423,10 +425,12 @@ bool Foam::granularFlows::bedFlow::solve
     const scalar ratio = lastChange_ > 0 ? change/lastChange_ : 1;
     lastRatio_ = lastChange_ > 0 ? ratio : 0;
     lastChange_ = change;
+    lastShare_ = change/size;
     const scalar rest = ratio < 0.5 ? change*ratio/(1 - ratio) : change;
     return
         linear_
-     || rest <= (fluxDependsOnT() ? settledFlux : settled)*size;
+     || rest
+     <= max((fluxDependsOnT() ? settledFlux : settled)*size, sufficient);
 }
 
 

@@ -73,7 +73,8 @@ Foam::scalar Foam::granularFlows::bedFlow::pressureDrop
 
 Foam::scalar Foam::granularFlows::bedFlow::dragOf(const label celli) const
 {
-    const bedCorrelations::state s(state(celli));
+    bedCorrelations::state s(state(celli));
+    s.porosity += looserBy(celli);
     return
         dragFactor_*drag_.value(s)*gas_.viscosity(gasT_[celli])*mag(massFlux_[celli])
        *sqr((1 - s.porosity)/diameter(celli))/pow3(s.porosity);

@@ -25,7 +25,7 @@ namespace Foam
 {
 
 //- Porosities that a bed of spheres has
-static const scalar densest = 0.2, loosest = 0.7;
+static const scalar densest = 0.2;
 
 } // End namespace Foam
 
@@ -219,7 +219,49 @@ Foam::granularFlows::bedFlow::readPort
     {
         result.temperature = Function1<scalar>::New("temperature", dict);
     }
+    checkWall(result);
     return made;
+}
+
+
+void Foam::granularFlows::bedFlow::checkWall(const port& end) const
+{
+    const dictionary& walls =
+        properties_.subOrEmptyDict("equilibriumCoeffs").subOrEmptyDict("walls");
+    const entry* found = walls.findEntry(end.name, keyType::REGEX);
+    if (!found || !found->isDict())
+    {
+        return;
+    }
+    const dictionary& dict = found->dict();
+    if (dict.getOrDefault<word>("type", "rigid") == "shell")
+    {
+        FatalIOErrorInFunction(dict)
+            << "Patch " << end.name << " is a wall of type shell, and gas flows"
+            << " through it, allowed: other types" << exit(FatalIOError);
+    }
+    if (!dict.found("displacement"))
+    {
+        return;
+    }
+    const autoPtr<Function1<vector>> displacement
+    (
+        Function1<vector>::New("displacement", dict)
+    );
+    const fvPatch& patch = mesh_.boundary()[end.patch];
+    const vector normal(gSum(patch.Sf())/gSum(patch.magSf()));
+    scalar away = 0;
+    for (const scalar t : looks())
+    {
+        away = max(away, displacement->value(t) & normal);
+    }
+    if (away > 0)
+    {
+        FatalIOErrorInFunction(dict)
+            << "Wall " << end.name << ", through which gas flows, moves by up to "
+            << away << " m away from the bed, allowed: at most 0, because the"
+            << " grains would leave it" << exit(FatalIOError);
+    }
 }
 
 
@@ -266,18 +308,25 @@ Foam::scalarList Foam::granularFlows::bedFlow::looks() const
 }
 
 
+bool Foam::granularFlows::bedFlow::isWall(const label patchi) const
+{
+    for (const port& each : ports_)
+    {
+        if (each.patch == patchi)
+        {
+            return false;
+        }
+    }
+    return !polyPatch::constraintType(mesh_.boundary()[patchi].type());
+}
+
+
 void Foam::granularFlows::bedFlow::findWidth()
 {
     scalar walls = 0;
     forAll(mesh_.boundary(), patchi)
     {
-        const fvPatch& patch = mesh_.boundary()[patchi];
-        bool wall = !polyPatch::constraintType(patch.type());
-        for (const port& each : ports_)
-        {
-            wall = wall && each.patch != patchi;
-        }
-        walls += wall ? gSum(patch.magSf()) : 0;
+        walls += isWall(patchi) ? gSum(mesh_.boundary()[patchi].magSf()) : 0;
     }
     width_ = walls > 0 ? 4*gSum(mesh_.V())/walls : GREAT;
 }

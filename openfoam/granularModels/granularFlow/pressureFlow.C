@@ -36,6 +36,11 @@ namespace granularFlows
     //- Change of fluxes and psi, over the largest, at which they are solved,
     //- and the most iterations
     static const scalar settled = 1e-12;
+
+    //- The same over the relative change of the temperatures by the last
+    //- solution, if that is larger
+    static const scalar settledByT = 1e-4;
+
     static const label mostNewton = 50;
 
     //- Share of the last change above which iterations are combined
@@ -87,6 +92,9 @@ Foam::granularFlows::pressure::pressure
     present_("presentFlux", flux_),
     slope_("slopeOfFlux", flux_),
     thermal_("thermalFlux", flux_),
+    looseWalls_(kindKeys.choice(dict_, "channelling") == "layer"),
+    looser_(T.size(), Zero),
+    core_(T.size(), scalar(1)),
     fluxBefore_(flux_)
 {
     massFlux_.writeOpt() = IOobject::AUTO_WRITE;
@@ -94,6 +102,10 @@ Foam::granularFlows::pressure::pressure
     skewed_ = max(mag(mesh_.nonOrthCorrectionVectors())).value() > mostSkew;
     readOpenings();
     checkParts();
+    if (looseWalls_)
+    {
+        findLooseWalls();
+    }
     scalarList& kept = grains.record().flow;
     kept.resize(totals + openings_.size(), 0);
     forAll(openings_, i)
@@ -299,7 +311,7 @@ void Foam::granularFlows::pressure::setProperties()
     forAll(gauge_, celli)
     {
         const scalar T = gasT_[celli], mu = gas_.viscosity(T);
-        const scalar porosity = grains_.porosity()[celli];
+        const scalar porosity = grains_.porosity()[celli] + looser_[celli];
         const scalar d = diameter(celli);
         const scalar rho = gas_.density(T, pressureIn(celli));
         const scalar w = compressible ? gas_.gasConstant()*T : 1;
@@ -456,16 +468,22 @@ void Foam::granularFlows::pressure::findFlux(const bool first)
     ++flows_;
     setMassFlux();
     guess();
+    if (first)
+    {
+        // A restarted run has none
+        responses_.clear();
+    }
     label iterations = 0;
     scalar change = GREAT;
+    const scalar enough = max(settled, settledByT*lastShare());
     mixing_.clear();
-    while (change > settled && iterations < mostNewton)
+    while (change > enough && iterations < mostNewton)
     {
         const scalar last = change;
         const scalarField from(unknowns());
         change = iterate();
         ++iterations;
-        if (change > settled && change > slow*last)
+        if (change > enough && change > slow*last)
         {
             setUnknowns(mixing_.next(from, unknowns()));
         }
@@ -480,7 +498,7 @@ void Foam::granularFlows::pressure::findFlux(const bool first)
     }
     newton_ += iterations;
     mostNewton_ = max(mostNewton_, iterations);
-    unsettled_ += change > settled;
+    unsettled_ += change > enough;
     scalar least = GREAT;
     forAll(gauge_, celli)
     {
@@ -514,9 +532,18 @@ Foam::string Foam::granularFlows::pressure::summaryOfKind() const
         os  << (i ? ", " : "") << string(ports_[i].name)
             << ": {\"mass_flow\": "
             << -gSum(flux_.boundaryField()[ports_[i].patch]) << ", \"pressure\": "
-            << gas_.pressure() + toGauge(openings_[i].psi) << "}";
+            << pressureAt(i) << "}";
     }
-    os  << "}, \"expelled_over_entered\": "
+    os  << "}, \"core_relative_flux\": ";
+    if (flows() && looseWalls_)
+    {
+        os  << relativeFluxOfCore();
+    }
+    else
+    {
+        os  << "null";
+    }
+    os  << ", \"expelled_over_entered\": "
         << expelled_/max(entered_, VSMALL)
         << ", \"newton_iterations\": "
         << scalar(newton_)/max(flows_, label(1))
@@ -534,10 +561,16 @@ Foam::string Foam::granularFlows::pressure::sentenceOfKind() const
     {
         os  << ports_[i].name << " has "
             << -gSum(flux_.boundaryField()[ports_[i].patch]) << " kg/s at "
-            << gas_.pressure() + toGauge(openings_[i].psi) << " Pa, ";
+            << pressureAt(i) << " Pa, ";
     }
     os  << "the largest mass flux is "
-        << gMax(mag(massFlux_.primitiveField())) << " kg/(m2 s). The flow took " << scalar(newton_)/max(flows_, label(1))
+        << gMax(mag(massFlux_.primitiveField())) << " kg/(m2 s).";
+    if (flows() && looseWalls_)
+    {
+        os  << " Away from the walls it is " << relativeFluxOfCore()
+            << " of the mean of the bed.";
+    }
+    os  << " The flow took " << scalar(newton_)/max(flows_, label(1))
         << " Newton iterations in the mean, at most " << mostNewton_ << ".";
     if (unsettled_)
     {

@@ -343,7 +343,7 @@ void Foam::granularFlows::pressure::setPresent()
 void Foam::granularFlows::pressure::solveChange
 (
     const scalarField& source,
-    const scalar tolerance
+    const scalarField& guess
 )
 {
     fvScalarMatrix equation(change_, dimless);
@@ -371,11 +371,11 @@ void Foam::granularFlows::pressure::solveChange
           ? scalarField(slope_.boundaryField()[patchi])
           : scalarField(slope_.boundaryField()[patchi].size(), Zero);
     }
-    change_.primitiveFieldRef() = 0;
+    change_.primitiveFieldRef() = guess;
     dictionary controls;
     controls.add("solver", "PCG");
     controls.add("preconditioner", "DIC");
-    controls.add("tolerance", tolerance);
+    controls.add("tolerance", linearTolerance);
     controls.add("relTol", 0);
     controls.add("maxIter", 5000);
     const label level = solverPerformance::debug;
@@ -426,7 +426,7 @@ Foam::scalar Foam::granularFlows::pressure::iterate()
     // With the openings as they are
     scalarField source(-netOutflow(flux));
     const scalarField before(psi_.primitiveField());
-    solveChange(source, linearTolerance);
+    solveChange(source, scalarField(source.size(), Zero));
     addChange(flux);
     psi_.primitiveFieldRef() += change_.primitiveField();
 
@@ -440,7 +440,7 @@ Foam::scalar Foam::granularFlows::pressure::iterate()
         }
     }
     const label count = moved.size();
-    PtrList<scalarField> psiOfOpening(count);
+    responses_.resize(openings_.size());
     PtrList<surfaceScalarField> ofFlux(count);
     simpleMatrix<scalar> balance(count, Zero, Zero);
     forAll(moved, k)
@@ -453,8 +453,16 @@ Foam::scalar Foam::granularFlows::pressure::iterate()
         {
             source[cells[facei]] += slope[facei];
         }
-        solveChange(source, sqr(linearTolerance));
-        psiOfOpening.set(k, new scalarField(change_.primitiveField()));
+        scalarField guess(source.size(), Zero);
+        if (responses_.set(moved[k]))
+        {
+            guess = responses_[moved[k]];
+        }
+        solveChange(source, guess);
+        responses_.set
+        (
+            moved[k], new scalarField(change_.primitiveField())
+        );
         ofFlux.set(k, new surfaceScalarField(0*flux));
         addChange(ofFlux[k]);
         ofFlux[k].boundaryFieldRef()[patchi] -= slope;
@@ -475,7 +483,7 @@ Foam::scalar Foam::granularFlows::pressure::iterate()
         forAll(moved, k)
         {
             openings_[moved[k]].psi += change[k];
-            psi_.primitiveFieldRef() += change[k]*psiOfOpening[k];
+            psi_.primitiveFieldRef() += change[k]*responses_[moved[k]];
             flux += change[k]*ofFlux[k];
         }
     }

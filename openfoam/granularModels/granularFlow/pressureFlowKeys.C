@@ -31,6 +31,12 @@ const keyTable granularFlows::pressure::kindKeys
             " one of them at least the pressure is given. Empty: the bed is"
             " closed, its mean pressure is `gasPressure`, and the gas convects",
             "-", "a dictionary", "required"
+        },
+        {
+            "channelling",
+            "`layer`: next to walls that no gas passes, the bed is looser by as"
+            " much pore volume as in packings of equal spheres; the drag is"
+            " lower there", "-", "none, layer", "layer"
         }
     }
 );

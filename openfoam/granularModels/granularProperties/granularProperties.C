@@ -191,11 +191,18 @@ Foam::granularProperties::granularProperties(const objectRegistry& registry)
         )
     )
 {
-    IOobject header
-    (
-        "g", registry.time().constant(), registry,
-        IOobject::MUST_READ, IOobject::NO_WRITE, false
-    );
+    // Of a region, else of the case
+    const auto file = [&registry](const objectRegistry& folder)
+    {
+        return IOobject
+        (
+            "g", registry.time().constant(), folder, IOobject::MUST_READ,
+            IOobject::NO_WRITE, false
+        );
+    };
+    const word type(uniformDimensionedVectorField::typeName);
+    const bool own = isFile(file(registry).globalFilePath(type));
+    IOobject header(own ? file(registry) : file(registry.time()));
     if (header.typeHeaderOk<uniformDimensionedVectorField>(true))
     {
         const uniformDimensionedVectorField g(header);

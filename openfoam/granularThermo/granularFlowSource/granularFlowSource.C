@@ -223,7 +223,7 @@ void Foam::fv::granularFlowSource::constrain
     const scalar tau = mesh_.time().deltaTValue();
     for (label solution = 0; solution < mostSolutions; ++solution)
     {
-        if (flow_->solve(bed(), tau, GREAT))
+        if (flow_->solve(bed(), tau, GREAT, 0))
         {
             break;
         }

@@ -38,6 +38,11 @@ static const scalar met = 1e-10;
 //- Solutions of a stage
 static const label mostSolutions = 60;
 
+//- While the change of the temperatures of the solids is above so many times
+//- that, repetitions for the bed alone end at this share of the change
+static const scalar far = 100;
+static const scalar enough = 0.03;
+
 //- A change that is not below this share of the least of so many solutions ago
 //- is a rounding error, if it is at most this part of the largest temperature
 static const scalar falls = 0.5;
@@ -303,12 +308,12 @@ Foam::scalar Foam::neighbourSolids::stageError(const scalar share) const
 void Foam::neighbourSolids::couple
 (
     const scalar tau,
-    const std::function<void()>& bed
+    const std::function<void(const scalar)>& bed
 )
 {
     if (empty())
     {
-        bed();
+        bed(0);
         return;
     }
     mixing_.clear();
@@ -316,9 +321,10 @@ void Foam::neighbourSolids::couple
     scalar least = GREAT;
     label waited = 0;
     scalarField from(temperatures());
+    scalar sufficient = GREAT;
     for (label solution = 1; ; ++solution)
     {
-        bed();
+        bed(sufficient);
         for (solid& s : solids_)
         {
             solve(s, tau);
@@ -330,8 +336,12 @@ void Foam::neighbourSolids::couple
         waited = change < falls*least ? 0 : waited + 1;
         least = min(least, change);
         const bool ends =
-            change <= met*largest
-         || (waited >= patience && change <= rounding*largest);
+            sufficient == 0
+         && (
+                change <= met*largest
+             || (waited >= patience && change <= rounding*largest)
+            );
+        sufficient = change > far*met*largest ? enough*change : 0;
         if (ends || solution == mostSolutions)
         {
             unconverged_ += !ends;

@@ -139,29 +139,50 @@ fn shaken(spheres: usize, seed: u64, friction: f64) -> Result<(), Box<dyn Error>
     Ok(())
 }
 
-/// Steel spheres of 2 mm that rain on a floor without sides.
+/// Steel spheres of 2 mm that rain on a floor, without sides and into cylinders. The inside is three diameters away from floor and surface.
 fn poured(spheres: usize, seed: u64) -> Result<(), Box<dyn Error>> {
-    let (diameter, side) = (2e-3, 12.0);
-    let stiffness = Stiffness::HertzMindlin { young_modulus: 5e9, poisson_ratio: 0.29 };
-    let material =
-        Material { density: 7750.0, stiffness, friction: 0.3, wall_friction: 0.3, restitution: 0.8 };
-    let container = Container::Endless { base: [side * diameter; 2] };
-    let (gravity, longest, threads) = (9.81, 10.0, 1);
-    let pouring = Pouring { spheres, seed, diameter, material, container, gravity, longest, threads };
-    let (bed, _) = pour(&pouring, |_| ())?;
+    let diameter = 2e-3;
+    let rain = |container| -> Result<(Simulation, [f64; 2]), Box<dyn Error>> {
+        let stiffness = Stiffness::HertzMindlin { young_modulus: 5e9, poisson_ratio: 0.29 };
+        let material =
+            Material { density: 7750.0, stiffness, friction: 0.3, wall_friction: 0.3, restitution: 0.8 };
+        let (gravity, longest, threads) = (9.81, 10.0, 1);
+        let pouring = Pouring { spheres, seed, diameter, material, container, gravity, longest, threads };
+        let (bed, _) = pour(&pouring, |_| ())?;
+        let floor = bed.boundary.walls()[0];
+        let mut heights: Vec<f64> = bed.spheres.iter().map(|s| floor.distance(s.position)).collect();
+        heights.sort_by(f64::total_cmp);
+        // The highest hundredth of the spheres is the surface.
+        let inside = [3.0 * diameter, heights[heights.len() * 99 / 100] - 3.0 * diameter];
+        Ok((bed, inside))
+    };
+    let container = Container::Endless { base: [12.0 * diameter; 2] };
+    let (bed, between) = rain(container)?;
     let floor = bed.boundary.walls()[0];
-    let mut heights: Vec<f64> = bed.spheres.iter().map(|s| floor.distance(s.position)).collect();
-    let counted = heights.clone();
-    heights.sort_by(f64::total_cmp);
-    // The highest hundredth of the spheres is the surface.
-    let between = [3.0 * diameter, heights[heights.len() * 99 / 100] - 3.0 * diameter];
-    let inside = |k: usize| (between[0]..between[1]).contains(&counted[k]);
+    let inside = |k: usize| (between[0]..between[1]).contains(&floor.distance(bed.spheres[k].position));
     let mut ends = 0;
     bed.for_each_contact(|contact| ends += contact.spheres().filter(|&k| inside(k)).count());
-    let count = (0..counted.len()).filter(|&k| inside(k)).count();
-    let fraction = |range| solid_fraction(&bed, &floor, range, Width::Whole(container.area()));
-    println!("poured - 0.3 {seed} {:.4} {:.3} - -", fraction(between), ends as f64 / count as f64);
-    let layers = [0.5, 1.0, 2.0, 3.0].map(|n| 1.0 - fraction([0.0, n * diameter]));
+    let count = (0..spheres).filter(|&k| inside(k)).count();
+    let porosity = |range| 1.0 - solid_fraction(&bed, &floor, range, Width::Whole(container.area()));
+    println!("poured - 0.3 {seed} {:.4} {:.3} - -", 1.0 - porosity(between), ends as f64 / count as f64);
+    let layers = [0.5, 1.0, 2.0, 3.0].map(|n| porosity([0.0, n * diameter]));
     println!("porosity of the first 0.5, 1, 2 and 3 diameters on the floor: {layers:.4?}");
+    for widths in [7.5, 12.0] {
+        let radius = 0.5 * widths * diameter;
+        let (bed, between) = rain(Container::Cylinder { radius })?;
+        let floor = bed.boundary.walls()[0];
+        // Between distances from the side, over the diameter
+        let ring = |from: f64, to: f64| {
+            let width = Width::Ring([(radius - to * diameter).max(0.0), radius - from * diameter]);
+            1.0 - solid_fraction(&bed, &floor, between, width)
+        };
+        let layers = [0.5, 1.0, 2.0].map(|n| ring(0.0, n));
+        println!(
+            "cylinder of {widths} diameters: porosity {:.4}, of the first 0.5, 1 and 2 diameters at the side \
+             {layers:.4?}, further inside {:.4}",
+            ring(0.0, widths),
+            ring(2.0, widths)
+        );
+    }
     Ok(())
 }

@@ -1,8 +1,9 @@
 # Runs that write every step are killed (-9) at random moments, on one process and on three. Continued from the newest complete
 # time they must give the same bytes as a run that was not killed: fields, boxes of grains and the run's record; the state that
-# function objects keep is excepted, since OpenFOAM writes it only when a run ends. Six kinds of runs, each killed once, with
-# --full nine times (108 kills in all, serial and parallel). MSDD_SEED sets the random moments.
+# function objects keep is excepted, since OpenFOAM writes it only when a run ends. Seven kinds of runs, each killed once, with
+# --full nine times (126 kills in all, serial and parallel). MSDD_SEED sets the random moments.
 
+. "$here/flow_cases"
 RANDOM=${MSDD_SEED:-$(date +%s)}
 echo "        moments of the kills: MSDD_SEED=${MSDD_SEED:-of the clock}"
 kills=$([ $full = yes ] && echo 9 || echo 1)
@@ -88,3 +89,8 @@ for steps in fixed adaptive; do
     mesh_is '6 3 1'
     same_bytes "online RVEs, $steps steps"
 done
+channelling=layer across=3 driven killed-flow 6 'in { massFlow table ((0 0.002) (1 0.004)); temperature 700; } out { temperature 310; }' \
+    'gasPressure 1e5; temperatures two; walls { sides { heatCapacity 8000; loss 2; ambient 300; } }' \
+    'endTime 1; deltaT 0.05; writeInterval 1;' '' 1
+gravity_is '-9.81 0 0'
+same_bytes "gas by pressure and buoyancy"

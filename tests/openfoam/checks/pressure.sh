@@ -3,12 +3,6 @@
 
 . "$here/flow_cases"
 
-driven() { # folder, cells along, openings, further arguments of flow_case
-    local folder=$1 cells=$2 openings=$3
-    shift 3
-    flow_case "$folder" "$cells" "$@"
-    sed -i "s/flow through;/flow pressure;/; s/throughCoeffs {.*outlet { patch out; }/pressureCoeffs { openings { $openings }/" constant/granularProperties
-}
 of_opening() { sed -n "s/.*\"openings\": {.*\"$1\": {\"mass_flow\": \([^,]*\), \"pressure\": \([^}]*\)}.*/\1 \2/p" postProcessing/msddFoam/summary.json; }
 once='endTime 1; deltaT 1; writeInterval 1;'
 liquid_of() { echo "gas constant; temperatures two; drag $1; constantGas { density 1; heatCapacity 1000; viscosity 2e-5; thermalConductivity 0.03; }"; }
@@ -44,6 +38,21 @@ layers() { # of porosity 0.4 and 0.5 side by side: A1 G1 + B1 G1^2 = A2 G2 + B2 
     check "two layers side by side: the shares of the flow differ from the closed form by $e <= 1e-6" below "$e" 1e-6
     e=$(of_summary most_newton_iterations)
     check "and take $e <= 8 Newton iterations" below "$e" 8
+}
+loose_walls() { # between plates 5 diameters apart, the layers of a diameter have a porosity 0.058 larger: the shares of the flow follow
+    local e across
+    for across in 10 3; do
+        channelling=layer across=$across driven pressure-loose 5 'in { massFlow 0.01; temperature 300; } out { temperature 300; }' \
+            "$(liquid_of Ergun)" "$once" '' 2
+        logged msddFoam
+        e=$(sed -n 's/^Looser grains at walls.*the bed is \(.*\) larger.*/\1/p' log | awk '{ e = $1/(0.058*2*0.02/0.1) - 1; print (e < 0 ? -e : e) }')
+        check "looser walls, $across cells across: the pore volume differs from that of the layers by $e <= 1e-5" below "$e" 1e-5
+        [ "$across" = 10 ] || continue
+        e=$(of_summary core_relative_flux | awk '
+            function F(G, e) { return 150*2e-5*G*(1 - e)^2/e^3/4e-4 + 1.75*G^2*(1 - e)/e^3/0.02 }
+            { core = $1; layer = (1 - 0.6*core)/0.4; e = F(core, 0.4)/F(layer, 0.458) - 1; print (e < 0 ? -e : e) }')
+        check "looser walls: core and layers share the flow as the closed form says, to $e <= 1e-6" below "$e" 1e-6
+    done
 }
 
 cycle='in { massFlow table ((0 0.002) (3000 0.002) (3001 0) (5000 0) (5001 -0.002)); temperature 700; } out { temperature 310; }'
@@ -218,6 +227,23 @@ column() { # gas upwards through a column of grains: the stress at its foot fall
         check "flow $kind upwards through a column: the stress at its foot differs from the closed form by $e <= 1e-4" below "$e" 1e-4
     done
 }
+forces() { # the foot of a bed of uneven porosity has its weight, less drag and buoyancy
+    local e
+    across=4 driven pressure-forces 6 'in { massFlow 0.005; temperature 400; } out { temperature 300; }' "$(liquid_of Ergun)" "$once" '' 2
+    { sed '/internalField/,$d' 0/porosity; printf 'internalField nonuniform List<scalar>\n24\n(\n'; for i in $(seq 24); do echo 0.$((36 + i*i*7 % 11)); done
+      echo ');'; sed '1,/internalField/d' 0/porosity; } > porosity.new
+    mv porosity.new 0/porosity
+    grains 'mechanics equilibrium; equilibriumCoeffs { law elastic; elasticCoeffs { youngModulus 1e10; poissonRatio 0.3; } residual 3e-4;
+        walls { in { type frictionless; } sides { type frictionless; } out { type pressure; pressure constant 0; } } }'
+    gravity_is '-9.81 0 0'
+    logged msddFoam
+    # A virtual displacement that is 1 at the foot and 0 above its first row of cells
+    e=$(paste -d ' ' <(field 0/porosity) <(field 1/gasMassFlux) <(field 1/stress) | tr -d '()' | awk '
+        { G = sqrt($2^2 + $3^2); F = G > 0 ? (150*2e-5*(1 - $1)^2/$1^3/4e-4 + 1.75*G*(1 - $1)/$1^3/0.02)*$2 : 0; f = F - (1 - $1)*1999*9.81
+          first = (NR - 1)%6 == 0; load += first ? f/2 : f; carried += first ? $5*6 : 0 }
+        END { e = carried/load - 1; print (e < 0 ? -e : e) }')
+    check "force of the foot, weight, drag and buoyancy balance to $e <= 1e-9" below "$e" 1e-9
+}
 refusals() {
     local change message
     while IFS='|' read -r message change; do
@@ -234,7 +260,13 @@ refusals() {
 	Entry 'pressure' of the opening out is -1|s/temperature 300;/& pressure -1;/
 	Opening 'frontAndBack' is a patch of the type empty|s/out {/frontAndBack {/
 	Unknown entry 'inlet'|s/openings/inlet { patch in; } &/
+	Patch in is a wall of type shell|s/flow pressure;/& equilibriumCoeffs { walls { in { type shell; } } }/
+	Wall out, through which gas flows, moves by up to 0.002 m away|s/flow pressure;/& equilibriumCoeffs { walls { "o.*" { displacement table ((0 (0 0 0)) (1 (0.002 0 0))); } } }/
+	Entry 'channelling' is layer, but the bed is too narrow|s/meanRadius 0.01/meanRadius 0.1/; s/channelling none/channelling layer/
+	Entry 'channelling' is 'thick'|s/channelling none/channelling thick/
 	END
+    driven pressure-bad 10 'in { pressure 3e7; temperature 400; } out { temperature 300; }' 'gas air;' "$once" '' 2
+    check 'refused: choked flow' refused 'The flow would be choked'
     driven pressure-bad 10 'in { massFlow -2; temperature 400; } out { temperature 300; }' 'gas air;' "$once" '' 2
     check 'refused: more suction than air can follow' refused 'The pressure of the gas would fall to 0'
     check "and foreseen" foreseen 'The pressure of the gas would fall to 0'
@@ -245,9 +277,11 @@ layers
 as_through
 hand_over
 radial
+loose_walls
 small
 rest
 convection
 stratified
 column
+forces
 refusals
