@@ -55,8 +55,18 @@ pub fn temperature_with(gas: GasName, key: &str, value: f64) -> Result<(), CaseE
     })
 }
 
-/// All temperatures of a wall over time.
+/// All temperatures of a wall over time, its coefficient and its flux.
 pub fn wall(wall: &WallOverTime, check: impl Fn(f64) -> Result<(), CaseError>) -> Result<(), CaseError> {
+    match *wall {
+        WallOverTime::Coefficient { coefficient: h, .. } => {
+            let allowed = || "more than 0, at most 1e6 W/(m2 K)".to_string();
+            allow("heat transfer coefficient h of a wall", h, h > 0.0 && h <= 1e6, allowed)?;
+        }
+        WallOverTime::Flux(q) => {
+            allow("heat flux q of a wall", q, q.abs() <= 1e9, || "-1e9 to 1e9 W/m2".to_string())?;
+        }
+        _ => (),
+    }
     wall.temperatures().into_iter().try_for_each(check)
 }
 

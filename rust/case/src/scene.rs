@@ -132,10 +132,10 @@ impl Scene {
         walls::temperatures(self.initial_temperature, &self.walls)
     }
 
-    /// Length over which heat has to spread \[m\]: in each direction half of the box if both walls have a temperature, the whole
-    /// box if one has; the shorter of the two directions.
+    /// Length over which heat has to spread \[m\]: in each direction half of the box if heat passes both walls, the whole box
+    /// if it passes one; the shorter of the two directions.
     pub fn heat_way(&self) -> f64 {
-        let warm = |wall: usize| !self.walls[wall].temperatures().is_empty();
+        let warm = |wall: usize| self.walls[wall].conducts();
         let ways = [0, 1].map(|k| match (warm(2 * k), warm(2 * k + 1)) {
             (true, true) => 0.5 * self.size[k],
             (false, false) => f64::INFINITY,
@@ -218,15 +218,17 @@ pub fn parse_point(text: &str) -> Result<Numbers<f64>, String> {
     })
 }
 
-/// Reads the condition of a wall: `insulated`, a temperature \[K\], or `time:T,time:T,...`.
+/// Reads the condition of a wall: `insulated`, a temperature \[K\], `time:T,time:T,...`, `h=200,T=300` (heat transfer coefficient
+/// \[W/(m² K)\] to the outside \[K\]), or `q=500` (heat flux into the bed \[W/m²\]).
 ///
 /// # Errors
 /// A text that says what is allowed.
 pub fn parse_wall(text: &str) -> Result<WallOverTime, String> {
     let text = text.trim();
     let allowed = || {
-        "insulated, a temperature in Kelvin such as 350, or temperatures over time such as 0:300,60:350, times [s] from 0 on \
-         and rising"
+        "insulated, a temperature in Kelvin such as 350, temperatures over time such as 0:300,60:350 (times [s] from 0 on and \
+         rising), a heat transfer coefficient [W/(m2 K)] and the temperature outside such as h=200,T=300, or a heat flux into \
+         the bed [W/m2] such as q=500"
             .to_string()
     };
     if text == "insulated" {
@@ -235,12 +237,28 @@ pub fn parse_wall(text: &str) -> Result<WallOverTime, String> {
     if let Ok(value) = text.parse::<f64>() {
         return Ok(WallOverTime::Steady(WallHeat::Temperature(value)));
     }
+    if text.contains('=') {
+        return by_name(text).ok_or_else(allowed);
+    }
     let row = |part: &str| {
         let (time, value) = part.split_once(':')?;
         Some([time.trim().parse().ok()?, value.trim().parse().ok()?])
     };
     let rows: Vec<[f64; 2]> = text.split(',').map(row).collect::<Option<_>>().ok_or_else(allowed)?;
     WallOverTime::table(rows).ok_or_else(allowed)
+}
+
+fn by_name(text: &str) -> Option<WallOverTime> {
+    let named = |part: &str, name: &str| -> Option<f64> {
+        let (key, value) = part.split_once('=')?;
+        if key.trim() == name { value.trim().parse().ok() } else { None }
+    };
+    match text.split_once(',') {
+        Some((h, outside)) => {
+            Some(WallOverTime::Coefficient { coefficient: named(h, "h")?, outside: named(outside, "T")? })
+        }
+        None => Some(WallOverTime::Flux(named(text, "q")?)),
+    }
 }
 
 #[cfg(test)]

@@ -24,7 +24,27 @@ fn walls_are_read_as_they_are_written() {
     let read = [" insulated ", "350", "0:300, 60:350"].map(|text| parse_wall(text).unwrap());
     let table = Table(vec![[0.0, 300.0], [60.0, 350.0]]);
     assert_eq!(read, [Steady(WallHeat::Insulated), Steady(WallHeat::Temperature(350.0)), table]);
-    for wrong in ["", "warm", "0:300", "5:300,6:310", "0:300,0:310", "0:300;60:350", "1,2"] {
+    let (h, q) = (parse_wall("h=200, T=300").unwrap(), parse_wall("q=-500").unwrap());
+    assert_eq!(h, WallOverTime::Coefficient { coefficient: 200.0, outside: 300.0 });
+    assert_eq!(
+        (q.clone(), h.temperatures(), q.temperatures()),
+        (WallOverTime::Flux(-500.0), vec![300.0], vec![])
+    );
+    assert!(h.conducts() && q.conducts() && q.at(0.0).is_none());
+    for wrong in [
+        "h=200",
+        "T=300,h=200",
+        "q=500,T=300",
+        "q=",
+        "h=200,T=x",
+        "",
+        "warm",
+        "0:300",
+        "5:300,6:310",
+        "0:300,0:310",
+        "0:300;60:350",
+        "1,2",
+    ] {
         assert!(parse_wall(wrong).unwrap_err().starts_with("insulated, a temperature in Kelvin"), "{wrong}");
     }
     assert!(parse_sides::<f64>("1x2x3x4").is_err() && parse_point("0.1").is_err());

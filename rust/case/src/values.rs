@@ -41,6 +41,7 @@ pub(crate) fn values(scene: &Scene, packing: &Packing, name: &str, checkout: &Pa
         ("probesNote", format!(". z is between 0 and {} m", plain(rounded(depth, 3)))),
         ("initialTemperature", plain(scene.initial_temperature)),
         ("walls", walls(WALLS.into_iter().zip(&scene.walls))),
+        ("libraries", libraries(&scene.walls)),
         ("parts", "$..numberOfSubdomains 1 1".to_string()),
         ("heatSource", plain(scene.heat_source.unwrap_or(0.0))),
         (
@@ -159,6 +160,10 @@ pub fn describe(wall: &WallOverTime) -> String {
     match wall {
         WallOverTime::Steady(WallHeat::Temperature(value)) => format!("{} K", plain(*value)),
         WallOverTime::Steady(_) => "insulated".to_string(),
+        WallOverTime::Coefficient { coefficient, outside } => {
+            format!("{} W/(m2 K) to {} K outside", plain(*coefficient), plain(*outside))
+        }
+        WallOverTime::Flux(flux) => format!("{} W/m2 into the bed", plain(*flux)),
         WallOverTime::Table(rows) => {
             let list: Vec<String> = rows
                 .iter()
@@ -203,7 +208,22 @@ fn probes(scene: &Scene, depth: f64) -> String {
 
 /// Patches of `0/T`.
 pub(crate) fn walls<'a>(walls: impl Iterator<Item = (&'a str, &'a WallOverTime)>) -> String {
+    let external = |mode: &str, entries: String| {
+        format!(
+            "type            externalWallHeatFluxTemperature;\n        mode            {mode};\n        {entries}\n        \
+             kappaMethod     lookup;\n        kappa           K;\n        value           $internalField;"
+        )
+    };
     let condition = |wall: &WallOverTime| match wall {
+        WallOverTime::Coefficient { coefficient, outside } => external(
+            "coefficient",
+            format!(
+                "h               uniform {};\n        Ta              constant {};",
+                plain(*coefficient),
+                plain(*outside)
+            ),
+        ),
+        WallOverTime::Flux(flux) => external("flux", format!("q               uniform {};", plain(*flux))),
         WallOverTime::Steady(WallHeat::Temperature(value)) => {
             format!("type    fixedValue;\n        value   uniform {};", plain(*value))
         }
@@ -222,6 +242,17 @@ pub(crate) fn walls<'a>(walls: impl Iterator<Item = (&'a str, &'a WallOverTime)>
         format!("    {name}\n    {{\n        {}\n    }}\n", condition(wall))
     };
     walls.map(block).collect()
+}
+
+/// Entry of `system/controlDict` for the conditions of the walls.
+pub(crate) fn libraries(walls: &[WallOverTime]) -> String {
+    let external =
+        |wall: &WallOverTime| matches!(wall, WallOverTime::Coefficient { .. } | WallOverTime::Flux(_));
+    if walls.iter().any(external) {
+        "\n// With externalWallHeatFluxTemperature of 0/T\nlibs            (\"libcompressibleTurbulenceModels.so\");\n".to_string()
+    } else {
+        String::new()
+    }
 }
 
 /// Name of the mechanics in `constant/granularProperties`.

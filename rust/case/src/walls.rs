@@ -29,6 +29,13 @@ pub enum WallOverTime {
     Steady(WallHeat),
     /// Times \[s\], rising from 0, and temperatures \[K\]: linear between two rows, constant after the last.
     Table(Vec<[f64; 2]>),
+    /// A heat transfer coefficient \[W/(m² K)\] to the outside of this temperature \[K\].
+    Coefficient {
+        coefficient: f64,
+        outside: f64,
+    },
+    /// A heat flux into the bed \[W/m²\].
+    Flux(f64),
 }
 
 impl WallOverTime {
@@ -40,20 +47,28 @@ impl WallOverTime {
         (rows.len() > 1 && rows[0][0] == 0.0 && finite && rising).then_some(Self::Table(rows))
     }
 
-    /// Temperatures that the wall has over time \[K\]; empty when it has none.
+    /// Temperatures over time of the wall, or outside of it \[K\]; empty when there is none.
     pub fn temperatures(&self) -> Vec<f64> {
         match self {
-            Self::Steady(WallHeat::Temperature(value)) => vec![*value],
-            Self::Steady(_) => Vec::new(),
+            Self::Steady(WallHeat::Temperature(value)) | Self::Coefficient { outside: value, .. } => {
+                vec![*value]
+            }
+            Self::Steady(_) | Self::Flux(_) => Vec::new(),
             Self::Table(rows) => rows.iter().map(|row| row[1]).collect(),
         }
     }
 
-    /// The condition at `time` \[s\].
-    pub fn at(&self, time: f64) -> WallHeat {
+    /// Whether heat passes the wall.
+    pub fn conducts(&self) -> bool {
+        matches!(self, Self::Flux(_)) || !self.temperatures().is_empty()
+    }
+
+    /// The condition at `time` \[s\] for discrete elements; `None` for a coefficient or a flux, which they do not compute.
+    pub fn at(&self, time: f64) -> Option<WallHeat> {
         match self {
-            Self::Steady(heat) => *heat,
-            Self::Table(rows) => WallHeat::Temperature(interpolated(rows, time)),
+            Self::Steady(heat) => Some(*heat),
+            Self::Table(rows) => Some(WallHeat::Temperature(interpolated(rows, time))),
+            Self::Coefficient { .. } | Self::Flux(_) => None,
         }
     }
 }
@@ -173,7 +188,7 @@ mod tests {
         )
         .unwrap();
         let at = |wall: usize, time| match walls[wall].at(time) {
-            WallHeat::Temperature(temperature) => temperature,
+            Some(WallHeat::Temperature(temperature)) => temperature,
             _ => 0.0,
         };
         let steady = [0, 1, 2].map(|wall| at(wall, 0.0));

@@ -208,7 +208,8 @@ fn resume(case: &Case, checkpoint: Checkpoint) -> Result<(Simulation, Records), 
 
 /// Thermal boundary conditions of the walls at `time` [s].
 fn walls_at(case: &Case, time: f64) -> [WallHeat; 4] {
-    std::array::from_fn(|side| case.walls[side].at(time))
+    // Files with other conditions are refused
+    std::array::from_fn(|side| case.walls[side].at(time).unwrap_or(WallHeat::Insulated))
 }
 
 /// Advances the simulation to exactly `time` [s]. A wall whose temperature changes has, during a block of steps, its

@@ -9,7 +9,7 @@ use crate::fields::{FieldKind, uniform};
 use crate::folder::{File, programs};
 use crate::numbers::{plain, rounded};
 use crate::scene::Mechanics;
-use crate::values::{Values, fill, mechanics_name, source, times, wall_rows, walls};
+use crate::values::{Values, fill, libraries, mechanics_name, source, times, wall_rows, walls};
 use std::f64::consts::PI;
 use std::path::Path;
 
@@ -102,6 +102,7 @@ fn values(scene: &Scene, name: &str, checkout: &Path) -> Result<Values, CaseErro
         ("spaceProbes", String::new()),
         ("initialTemperature", plain(scene.initial_temperature)),
         ("walls", walls(named()) + inner(&scene.shape)),
+        ("libraries", libraries(&scene.walls)),
         ("wallRows", wall_rows(named())),
         ("wedge", wedge(&scene.shape).to_string()),
         ("heatSource", plain(scene.heat_source.unwrap_or(0.0))),

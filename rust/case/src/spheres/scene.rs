@@ -198,7 +198,7 @@ impl Scene {
             .zip(self.warm())
             .find(|(name, warm)| *warm && flow.ends().contains(name));
         match warm {
-            Some((name, _)) => refuse(name, "a temperature", "insulated: the gas flows through this wall"),
+            Some((name, _)) => refuse(name, "not insulated", "insulated: the gas flows through this wall"),
             None => Ok(()),
         }
     }
@@ -299,9 +299,9 @@ impl Scene {
         }
     }
 
-    /// Which walls have a temperature.
+    /// Which walls heat passes.
     pub fn warm(&self) -> Vec<bool> {
-        self.walls.iter().map(|wall| !wall.temperatures().is_empty()).collect()
+        self.walls.iter().map(WallOverTime::conducts).collect()
     }
 
     /// Directions of the shape along which the bed is not alike: where walls have a temperature, upwards under gravity, and all of them

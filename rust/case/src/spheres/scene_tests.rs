@@ -44,7 +44,7 @@ fn a_flow_needs_a_gas_and_open_ends() {
             (|s| s.flow.as_mut().unwrap().mass = -1.0, "flow = -1, allowed: more than 0"),
             (|s| s.flow.as_mut().unwrap().temperature = 100.0, "flow temperature = 100, allowed: 273 to"),
             (|s| s.gas.name = GasName::Vacuum, "gas = vacuum, allowed: with a flow"),
-            (|s| s.walls[2] = parse_wall("400").unwrap(), "top = a temperature, allowed: insulated"),
+            (|s| s.walls[2] = parse_wall("400").unwrap(), "top = not insulated, allowed: insulated"),
         ],
     );
     // The gas heats the bed from 293 to 813 K along its axis, with its heat in the time that is proposed

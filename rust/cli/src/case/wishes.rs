@@ -25,7 +25,8 @@ const POROSITY: f64 = 0.125;
 pub(super) const HOTTER: f64 = 50.0;
 
 pub(super) const WALL_HELP: &str = "Each wall is insulated, or has a temperature [K], or one that changes over time: 0:300,60:350 is \
-                                    300 K at 0 s, 350 K at 60 s, and linear between them.";
+                                    300 K at 0 s, 350 K at 60 s, and linear between them. h=200,T=300 is a heat transfer \
+                                    coefficient [W/(m2 K)] to the outside, q=500 a heat flux [W/m2] into the bed.";
 
 #[derive(Args)]
 pub struct Wishes {
@@ -42,8 +43,9 @@ pub struct Wishes {
     /// Approximate side of a cell [m], instead of the number of cells. Allowed: > 0.
     #[arg(long, value_name = "M", help_heading = "Box")]
     pub(super) cell_size: Option<f64>,
-    /// Left wall: a temperature [K], `insulated`, or temperatures over time such as `0:300,60:350` (300 K at 0 s, 350 K at 60
-    /// s, linear between them). Allowed: 0 to 1e5; with spheres the range in which the gas is known (air 200 to 2000, helium
+    /// Left wall: a temperature [K], `insulated`, temperatures over time such as `0:300,60:350` (300 K at 0 s, 350 K at 60 s,
+    /// linear between them), a heat transfer coefficient [W/(m2 K)] and the temperature outside such as `h=200,T=300`, or a heat
+    /// flux into the bed [W/m2] such as `q=500`. Allowed: temperatures of 0 to 1e5; with spheres the range in which the gas is known (air 200 to 2000, helium
     /// 273 to 1800). Default: 50 K above the start; insulated if another wall is given.
     #[arg(long, value_name = "WALL", value_parser = parse_wall, help_heading = "Walls and temperatures")]
     pub(super) left: Option<WallOverTime>,
