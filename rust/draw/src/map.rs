@@ -338,7 +338,9 @@ fn scale_bar(body: &mut String, sheet: &Sheet, (low, high): (f64, f64), y: f64) 
         let x = MARGIN + LONG * (value - low) / (high - low);
         let _ = writeln!(
             body,
-            "<path d=\"M{x:.1} {y:.0}v16\" stroke=\"#000\"/><text x=\"{x:.1}\" y=\"{:.0}\" text-anchor=\"middle\">{}</text>",
+            "<path d=\"M{x:.1} {y:.0}v16\" stroke=\"#000\"/><text x=\"{:.1}\" y=\"{:.0}\" text-anchor=\"middle\">{}</text>",
+            // Not cut off at the left
+            x.max(MARGIN + 8.0),
             y + 29.0,
             number(value)
         );
