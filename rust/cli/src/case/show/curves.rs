@@ -9,7 +9,7 @@ use msdd_case::tables::Table;
 use msdd_draw::map::range_of;
 use msdd_draw::text::significant;
 use msdd_draw::{Line, Marker, Series, Style, from_data, plot_named, series};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// A figure with the name by which `--figures` knows it.
 pub type Figure = (&'static str, String);
@@ -17,6 +17,10 @@ pub type Figure = (&'static str, String);
 /// At most so many curves are drawn in a figure, and so many places along an axis.
 const MOST: usize = 8;
 const PLACES: usize = 60;
+/// Most rows of cells along an axis that are drawn one by one, else steps; rows are told apart by this share of the length.
+const MOST_ROWS: usize = 200;
+const STEPS: f64 = 15.0;
+const ROUNDED: f64 = 1e5;
 const BANDS: &str = "bands.csv";
 
 type Points = Vec<(f64, f64)>;
@@ -180,10 +184,15 @@ fn profile(run: &Run) -> Result<Option<Figure>, CliError> {
     let places: Vec<[f64; 2]> = run.parts[0].mesh.centres.iter().map(|centre| view.at(*centre)).collect();
     let along = |axis: usize, values: &[f64]| -> Points {
         let (low, high) = range_of(places.iter().map(|p| &p[axis]));
-        let step = ((high - low) / PLACES as f64).max(1e-300);
+        let share = |place: &[f64; 2]| (place[axis] - low) / (high - low).max(1e-300);
+        // Rows of cells where the mesh has them, else steps that hold many cells
+        let row = |place: &[f64; 2]| (ROUNDED * share(place)).round() as i64;
+        let rows: BTreeSet<i64> = places.iter().map(row).collect();
+        let step = |place: &[f64; 2]| ((STEPS - 1e-6) * share(place)).floor() as i64;
         let mut sums = BTreeMap::<i64, [f64; 3]>::new();
         for ((place, value), volume) in places.iter().zip(values).zip(&run.parts[0].mesh.volumes) {
-            let sum = sums.entry(((place[axis] - low) / step * 0.999_999).floor() as i64).or_default();
+            let key = if rows.len() <= MOST_ROWS { row(place) } else { step(place) };
+            let sum = sums.entry(key).or_default();
             (0..3).for_each(|k| sum[k] += volume * [place[axis], *value, 1.0][k]);
         }
         sums.values().map(|[x, value, n]| (x / n, value / n)).collect()

@@ -268,5 +268,5 @@ fn notes(run: &Run, last_alone: bool) -> String {
             names.join(", ")
         );
     }
-    text + &format!("Stress is positive in compression. Made by msdd {}.", crate::VERSION)
+    text + &format!("Stress is positive in compression. Made by msdd {}.", env!("CARGO_PKG_VERSION"))
 }
