@@ -7,7 +7,9 @@
 //! | [`case`] | material, temperatures, box and times of a case folder |
 //! | [`model`] | the grains that the surrogate of a case was made for |
 //! | [`walls`] | thermal boundary conditions of the walls over time |
-//! | [`mesh`] | cell centres of a case's mesh |
+//! | [`mesh`] | a case's mesh, with centres and volumes of its cells |
+//! | [`results`] | times and fields that a run has written |
+//! | [`section`] | a mesh in a plane: its cells as polygons |
 //! | [`disc_model`] | the model of discs of a new case |
 //! | [`fields`] | texts of initial fields |
 //! | [`grains`] | materials of new cases |
@@ -37,9 +39,11 @@ mod openfoam;
 pub mod packing;
 pub mod path;
 pub mod ranges;
+pub mod results;
 pub mod scene;
 #[cfg(test)]
 mod scenes_for_tests;
+pub mod section;
 pub mod spheres;
 pub mod tables;
 pub mod values;

@@ -1,37 +1,88 @@
-//! Cell centres of a case's mesh, from the text files in `constant/polyMesh`. They are computed as in OpenFOAM: a cell is
-//! divided into pyramids on its faces, and its centre is the mean of the pyramids' centres, weighted by volume.
+//! A case's mesh, from the text files in `constant/polyMesh`. Centres and volumes are computed as in OpenFOAM: a cell is divided into
+//! pyramids on its faces, and its centre is the mean of the pyramids' centres, weighted by volume.
 
 use crate::CaseError;
-use std::path::Path;
+use crate::binary;
+use std::path::{Path, PathBuf};
 
-/// x and y of the centres of all cells \[m\].
-///
-/// # Errors
-/// [`CaseError::Read`] when a file is missing, and [`CaseError::Key`] when it is not a list of text.
-pub fn cell_centres(case: &Path) -> Result<Vec<[f64; 2]>, CaseError> {
-    let folder = case.join("constant/polyMesh");
-    let points: Vec<[f64; 3]> =
-        numbers(&folder.join("points"))?.chunks(3).map(|p| [p[0], p[1], p[2]]).collect();
-    let faces = lists(&folder.join("faces"))?;
-    let owner = labels(&folder.join("owner"))?;
-    let neighbour = labels(&folder.join("neighbour"))?;
-    let bad = |file: &str, value: String, allowed: String| CaseError::Key {
-        file: folder.join(file),
-        key: "list".to_string(),
-        value,
-        allowed,
-    };
-    if owner.len() != faces.len() || neighbour.len() > faces.len() {
-        let value = format!("{} owners, {} neighbours", owner.len(), neighbour.len());
-        return Err(bad("owner", value, format!("one owner for each of {} faces", faces.len())));
+/// A part of the boundary.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Patch {
+    pub name: String,
+    /// Its type, such as `wall`.
+    pub kind: String,
+    /// Its first face, and the number of faces.
+    pub first: usize,
+    pub count: usize,
+}
+
+/// Points, faces and cells of a mesh.
+#[derive(Clone, Debug)]
+pub struct Mesh {
+    /// Its folder `polyMesh`.
+    pub folder: PathBuf,
+    /// \[m\].
+    pub points: Vec<[f64; 3]>,
+    /// The points of each face.
+    pub faces: Vec<Vec<usize>>,
+    /// Centre \[m\] of each face, and its area vector \[m²\], which points out of the owner.
+    pub face_centres: Vec<[f64; 3]>,
+    pub areas: Vec<[f64; 3]>,
+    /// The cell of each face, and the second cell of the faces inside.
+    pub owner: Vec<usize>,
+    pub neighbour: Vec<usize>,
+    pub patches: Vec<Patch>,
+    /// Centre \[m\] and volume \[m³\] of each cell.
+    pub centres: Vec<[f64; 3]>,
+    pub volumes: Vec<f64>,
+}
+
+impl Mesh {
+    /// Reads the mesh of a case, or that of a `region` if this is not empty. Files may be packed (`.gz`).
+    ///
+    /// # Errors
+    /// [`CaseError::Read`] for a file that is missing or binary, [`CaseError::Key`] for one that is no list of the right size.
+    pub fn read(case: &Path, region: &str) -> Result<Self, CaseError> {
+        let folder = case.join("constant").join(region).join("polyMesh");
+        let points: Vec<[f64; 3]> =
+            numbers(&folder.join("points"))?.chunks(3).map(|p| [p[0], p[1], p[2]]).collect();
+        let faces = lists(&folder.join("faces"))?;
+        let owner = labels(&folder.join("owner"))?;
+        let neighbour = labels(&folder.join("neighbour"))?;
+        let patches = patches(&folder.join("boundary"))?;
+        let bad = |file: &str, value: String, allowed: String| CaseError::Key {
+            file: folder.join(file),
+            key: "list".to_string(),
+            value,
+            allowed,
+        };
+        if owner.len() != faces.len() || neighbour.len() > faces.len() {
+            let value = format!("{} owners, {} neighbours", owner.len(), neighbour.len());
+            return Err(bad("owner", value, format!("one owner for each of {} faces", faces.len())));
+        }
+        if let Some(point) = faces.iter().flatten().find(|&&point| point >= points.len()) {
+            return Err(bad("faces", point.to_string(), format!("points below {}", points.len())));
+        }
+        if let Some(patch) = patches.iter().find(|patch| patch.first + patch.count > faces.len()) {
+            let value = format!("{} to {} of {}", patch.first, patch.first + patch.count, patch.name);
+            return Err(bad("boundary", value, format!("faces up to {}", faces.len())));
+        }
+        let computed: Vec<Face> = faces.iter().map(|face| Face::new(face, &points)).collect();
+        let sides = owner.iter().enumerate().chain(neighbour.iter().enumerate());
+        let sides: Vec<(usize, usize)> = sides.map(|(face, &cell)| (face, cell)).collect();
+        let (centres, volumes) = centres(&computed, &sides).into_iter().unzip();
+        let (face_centres, areas) = computed.into_iter().map(|face| (face.centre, face.area)).unzip();
+        Ok(Self { folder, points, faces, face_centres, areas, owner, neighbour, patches, centres, volumes })
     }
-    if let Some(point) = faces.iter().flatten().find(|&&point| point >= points.len()) {
-        return Err(bad("faces", point.to_string(), format!("points below {}", points.len())));
+
+    /// The faces of each cell.
+    pub fn faces_of_cells(&self) -> Vec<Vec<usize>> {
+        let mut faces = vec![Vec::new(); self.volumes.len()];
+        for (face, &cell) in self.owner.iter().enumerate().chain(self.neighbour.iter().enumerate()) {
+            faces[cell].push(face);
+        }
+        faces
     }
-    let faces: Vec<Face> = faces.iter().map(|face| Face::new(face, &points)).collect();
-    let sides = owner.iter().enumerate().chain(neighbour.iter().enumerate());
-    let sides: Vec<(usize, usize)> = sides.map(|(face, &cell)| (face, cell)).collect();
-    Ok(centres(&faces, &sides))
 }
 
 /// Centre and area vector of a face.
@@ -40,15 +91,15 @@ struct Face {
     area: [f64; 3],
 }
 
-fn minus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+pub(crate) fn minus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
 }
 
-fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+pub(crate) fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
-fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+pub(crate) fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
@@ -80,8 +131,8 @@ impl Face {
     }
 }
 
-/// Centres of the cells. `sides` are pairs of a face and a cell that it bounds.
-fn centres(faces: &[Face], sides: &[(usize, usize)]) -> Vec<[f64; 2]> {
+/// Centre and volume of each cell. `sides` are pairs of a face and a cell that it bounds.
+fn centres(faces: &[Face], sides: &[(usize, usize)]) -> Vec<([f64; 3], f64)> {
     let count = sides.iter().map(|side| side.1 + 1).max().unwrap_or(0);
     let mut middle = vec![([0.0; 3], 0.0f64); count];
     for &(face, cell) in sides {
@@ -89,32 +140,68 @@ fn centres(faces: &[Face], sides: &[(usize, usize)]) -> Vec<[f64; 2]> {
         middle[cell].1 += 1.0;
     }
     let middle: Vec<[f64; 3]> = middle.into_iter().map(|(sum, n)| sum.map(|x| x / n.max(1.0))).collect();
-    let mut pyramids = vec![([0.0; 2], 0.0); count];
+    let mut pyramids = vec![([0.0; 3], 0.0); count];
     for &(face, cell) in sides {
         let Face { centre, area } = &faces[face];
         // The absolute value, because the area vector may point into the cell or out of it.
-        let volume = dot(*area, minus(*centre, middle[cell])).abs();
-        for k in 0..2 {
+        let volume = dot(*area, minus(*centre, middle[cell])).abs() / 3.0;
+        for k in 0..3 {
             pyramids[cell].0[k] += volume * (0.75 * centre[k] + 0.25 * middle[cell][k]);
         }
         pyramids[cell].1 += volume;
     }
-    pyramids.into_iter().map(|(sum, volume)| sum.map(|x| x / volume)).collect()
+    pyramids.into_iter().map(|(sum, volume)| (sum.map(|x| x / volume), volume)).collect()
 }
 
 /// The list of a file, as the text between its outermost parentheses.
 fn content(file: &Path) -> Result<String, CaseError> {
-    let failed = |problem: String| CaseError::Read { file: file.to_path_buf(), problem };
-    let bytes = std::fs::read(file).map_err(|error| failed(format!("{error} (blockMesh makes the mesh)")))?;
-    let text =
-        String::from_utf8(bytes).map_err(|_| failed("binary; allowed: writeFormat ascii".to_string()))?;
+    let failed = |problem: &str| CaseError::Read { file: file.to_path_buf(), problem: problem.to_string() };
+    let bytes =
+        binary::read(file).ok_or_else(|| failed("there is no such file (blockMesh makes the mesh)"))?;
+    if binary::is_binary(&bytes) {
+        return Err(failed(
+            "binary; allowed: ascii. Set 'writeFormat ascii' in system/controlDict and run 'foamFormatConvert -constant'",
+        ));
+    }
+    let text = String::from_utf8(bytes).map_err(|_| failed("no text"))?;
     // The head of the file ends with the first closing brace.
     let body = text.find('}').map_or(text.as_str(), |end| &text[end + 1..]);
     let (open, close) = (body.find('('), body.rfind(')'));
     match (open, close) {
         (Some(open), Some(close)) if open < close => Ok(body[open + 1..close].to_string()),
-        _ => Err(failed("no list".to_string())),
+        _ => Err(failed("no list")),
     }
+}
+
+/// The patches of the file `boundary`.
+fn patches(file: &Path) -> Result<Vec<Patch>, CaseError> {
+    let text = content(file)?;
+    let mut patches = Vec::new();
+    for block in text.split('}') {
+        let Some((name, entries)) = block.split_once('{') else { continue };
+        let value = |key: &str| {
+            let words = entries.split(';').map(|entry| entry.split_whitespace().collect::<Vec<_>>());
+            words
+                .into_iter()
+                .find_map(|words| (words.len() == 2 && words[0] == key).then(|| words[1].to_string()))
+        };
+        let number = |key: &str| {
+            let text = value(key).unwrap_or_default();
+            text.parse().map_err(|_| CaseError::Key {
+                file: file.to_path_buf(),
+                key: format!("{}.{key}", name.trim()),
+                value: text,
+                allowed: "a number".to_string(),
+            })
+        };
+        patches.push(Patch {
+            name: name.trim().to_string(),
+            kind: value("type").unwrap_or_default(),
+            first: number("startFace")?,
+            count: number("nFaces")?,
+        });
+    }
+    Ok(patches)
 }
 
 fn parsed<T: std::str::FromStr>(file: &Path, text: &str) -> Result<Vec<T>, CaseError> {
@@ -156,8 +243,9 @@ mod tests {
         let corner = |k: usize| [[0.0, 0.0], [3.0, 0.0], [0.0, 3.0]][k % 3];
         let points: Vec<[f64; 3]> = (0..6).map(|k| [corner(k)[0], corner(k)[1], (k / 3) as f64]).collect();
         let faces: [&[usize]; 5] = [&[0, 2, 1], &[3, 4, 5], &[0, 1, 4, 3], &[1, 2, 5, 4], &[2, 0, 3, 5]];
-        let centre =
+        let (centre, volume) =
             centres(&faces.map(|face| Face::new(face, &points)), &[0, 1, 2, 3, 4].map(|face| (face, 0)))[0];
-        assert!(centre.iter().all(|x| (x - 1.0).abs() < 1e-12), "{centre:?}");
+        assert!(centre.iter().zip([1.0, 1.0, 0.5]).all(|(x, y)| (x - y).abs() < 1e-12), "{centre:?}");
+        assert!((volume - 4.5).abs() < 1e-12);
     }
 }

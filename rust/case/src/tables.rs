@@ -71,6 +71,22 @@ pub fn parts(case: &Path, name: &str, file: Option<&str>) -> Result<Vec<Part>, C
     if found.is_empty() { Err(wrong(format!("no {wanted} in it"))) } else { Ok(found) }
 }
 
+/// All tables of a case: names of function objects, of those of regions with the region, and their files.
+pub fn all(case: &Path) -> Vec<(String, String)> {
+    let post = case.join("postProcessing");
+    let folders = |folder: &Path| -> Vec<PathBuf> {
+        list(folder).unwrap_or_default().into_iter().filter(|path| path.is_dir()).collect()
+    };
+    let first = folders(&post);
+    let inner: Vec<PathBuf> = first.iter().flat_map(|folder| folders(folder)).collect();
+    let mut found = BTreeSet::new();
+    for folder in first.into_iter().chain(inner) {
+        let name = folder.strip_prefix(&post).unwrap_or(&folder).display().to_string();
+        found.extend(unlisted(&folder).into_iter().map(|part| (name.clone(), base(&part.1))));
+    }
+    found.into_iter().collect()
+}
+
 /// A table of a function object; `name` and `file` as in [`parts`]. Rows from the start of a later part on are those of that
 /// part.
 ///
@@ -105,6 +121,12 @@ pub fn read(case: &Path, name: &str, file: Option<&str>) -> Result<Table, CaseEr
 }
 
 impl Table {
+    /// The names of the columns, from the last line of the head.
+    pub fn columns(&self) -> Vec<&str> {
+        let last = self.head.last().map_or("", |line| line.trim_start_matches(['#', ' ']));
+        last.split_whitespace().collect()
+    }
+
     /// The numbers in the rows, without brackets.
     ///
     /// # Errors

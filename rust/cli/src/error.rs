@@ -17,6 +17,8 @@ pub enum CliError {
     #[error(transparent)]
     Case(#[from] msdd_case::CaseError),
     #[error(transparent)]
+    Draw(#[from] msdd_draw::DrawError),
+    #[error(transparent)]
     Database(#[from] msdd_rve::database::DatabaseError),
     #[error(transparent)]
     Reference(#[from] msdd_reference::ReferenceError),

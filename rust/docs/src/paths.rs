@@ -7,7 +7,8 @@ use std::path::Path;
 /// Folders of the checkout whose paths are checked.
 const FOLDERS: [&str; 7] = ["cases", "rust", "scripts", "tests", "docs", "openfoam", ".ci"];
 /// What runs leave behind below them: not in the repository.
-const MADE: [&str; 6] = ["postProcessing", "VTK", "polyMesh", "dynamicCode", "platforms", "lnInclude"];
+const MADE: [&str; 7] =
+    ["postProcessing", "show.html", "VTK", "polyMesh", "dynamicCode", "platforms", "lnInclude"];
 
 /// The blocks of code of a page: what its commands make is no path of the repository, but may be named.
 pub fn made_by_the_reader(page: &Page) -> String {
@@ -51,7 +52,7 @@ fn plain(c: char) -> bool {
     c.is_ascii_alphanumeric() || "._-/*=+".contains(c)
 }
 
-/// Names of what runs write: the folders above, logs, processors, times.
+/// Names of what runs write: those above, logs, processors, times.
 fn made(part: &str) -> bool {
     let time = part != "0" && part.parse::<f64>().is_ok();
     MADE.contains(&part) || part.starts_with("log.") || part.starts_with("processor") || time

@@ -12,14 +12,12 @@
 //! | [`failures`] | where methods lose accuracy or fail, and what the programs do there |
 //! | [`report`] | all results as data: the JSON file |
 //! | [`case`] | speed against accuracy for a case of the user's |
-//! | [`draw`] | figures as SVG |
 //! | [`page`] | the page |
 //!
 //! Errors against the discrete elements are those of [`msdd_reference::compare`].
 #![forbid(unsafe_code)]
 
 pub mod case;
-pub mod draw;
 pub mod failures;
 pub mod jobs;
 pub mod page;
@@ -51,8 +49,8 @@ pub enum ReportError {
     Useless { problem: String },
     #[error("cannot start {program}: {problem}")]
     Start { program: String, problem: String },
-    #[error("cannot draw {figure}: {problem}")]
-    Draw { figure: String, problem: String },
+    #[error(transparent)]
+    Draw(#[from] msdd_draw::DrawError),
 }
 
 /// Reads a text file.

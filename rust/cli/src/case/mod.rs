@@ -4,6 +4,7 @@ mod ask;
 mod check;
 mod grain_wishes;
 mod new;
+mod show;
 mod solve;
 mod sphere_wishes;
 mod table;
@@ -39,6 +40,8 @@ pub enum Command {
     ///
     /// The results, with 90 % bands, are in the folder FOLDER.chosen.
     Solve(solve::Arguments),
+    /// Show the results of a run: writes a page with key numbers, maps, curves and what to know.
+    Show(show::Arguments),
     /// Print a table that a function object has written, as one whole over all parts of the run. The exit status is 1 if
     /// there is no such table, or if parts have other points or columns.
     Table(table::Arguments),
@@ -49,6 +52,7 @@ pub fn run(command: &Command) -> Result<(), CliError> {
         Command::New(arguments) => new::run(arguments),
         Command::Check(arguments) => check::run(arguments),
         Command::Solve(arguments) => solve::run(arguments),
+        Command::Show(arguments) => show::run(arguments),
         Command::Table(arguments) => table::run(arguments),
     }
 }

@@ -104,8 +104,8 @@ fn next_steps(folder: &Path, name: &str) -> String {
     let folder = folder.display();
     format!(
         "Next:\n    {folder}/Allrun    makes the mesh and runs msddFoam; its log ends with what to know about the run\n    \
-         results: {folder}/postProcessing (probes/0/T, wallPressure, msddFoam/summary.json) and the time folders\n    \
-         see them: open {folder}/{name}.foam in ParaView; {folder}/README.md says what is where"
+         results: {folder}/show.html, a page with maps, curves and key numbers; tables in {folder}/postProcessing\n    \
+         fields: open {folder}/{name}.foam in ParaView; {folder}/README.md says what is where"
     )
 }
 

@@ -13,10 +13,11 @@ use crate::error::CliError;
 use crate::progress::Progress;
 use crate::rve::{read_state, write_state};
 use clap::{Args, Subcommand, ValueEnum};
+use msdd_case::Case;
+use msdd_case::mesh::Mesh;
 use msdd_case::numbers::rounded;
 use msdd_case::packing::sum_porosity;
 use msdd_case::values::{contact_period, discs_seconds};
-use msdd_case::{Case, mesh};
 use msdd_dem::Simulation;
 use msdd_files::{check_target, write};
 use msdd_reference::model::{DISCS, Filling, ModelSpec, check_state, pack, statistics};
@@ -407,12 +408,13 @@ fn report(name: &str, results: &Results, elapsed: Duration) {
 
 fn write_fields(arguments: &FieldsArguments) -> Result<(), CliError> {
     let case = Case::read(&arguments.model.case)?;
-    let centres = mesh::cell_centres(&case.folder)?;
+    let mesh = Mesh::read(&case.folder, "")?;
     let simulation = arguments.model.load(&case)?;
     let scale = simulation.walls.width() / case.size[0];
     let [left, _, bottom, _] = simulation.walls.position;
-    let at = |[x, y]: [f64; 2]| [left + scale * (x - case.origin[0]), bottom + scale * (y - case.origin[1])];
-    let centres: Vec<[f64; 2]> = centres.into_iter().map(at).collect();
+    let at =
+        |[x, y, _]: [f64; 3]| [left + scale * (x - case.origin[0]), bottom + scale * (y - case.origin[1])];
+    let centres: Vec<[f64; 2]> = mesh.centres.into_iter().map(at).collect();
     let begin = Instant::now();
     let window = fields::WINDOW * case.mean_radius;
     let averages = fields::around(&simulation, &centres, window, arguments.model.threads as usize)?;

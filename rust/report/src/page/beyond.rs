@@ -1,11 +1,12 @@
 //! Section of the page beyond the six cases: order in time, sensitivity, another geometry and another material.
 
-use super::html::{Figure, case_name, fixed, table};
+use super::html::{Figure, case_name};
 use crate::ReportError;
-use crate::draw::{Axis, Line, Marker, Series, Style, plot};
 use crate::plan::CHARTED;
 use crate::report::Made;
 use crate::studies::other_cases::WAYS;
+use msdd_draw::html::{fixed, table};
+use msdd_draw::{Axis, Line, Marker, Series, Style, plot};
 
 pub fn section(made: &Made) -> Result<String, ReportError> {
     Ok(convergence(made)? + &sensitivity(made) + &other_cases(made)?)

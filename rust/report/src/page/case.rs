@@ -1,12 +1,13 @@
 //! The page on a case of the user's.
 
-use super::html::{Figure, fixed, head, numbered, table};
+use super::html::Figure;
 use crate::ReportError;
 use crate::case::errors::Error;
 use crate::case::ladder::FAMILIES;
 use crate::case::{CaseReport, Row};
-use crate::draw::{Axis, Line, MARKERS, Series, Style, escape, plot, series};
 use crate::studies::front::{Point, stairs};
+use msdd_draw::html::{fixed, head, numbered, table};
+use msdd_draw::{Axis, Line, MARKERS, Series, Style, escape, plot, series};
 use std::fmt::Write;
 
 /// The page's text.

@@ -1,11 +1,12 @@
 //! Section of the page on error against cost, with the table of what can be left out of a case.
 
-use super::html::{Figure, case_name, fixed, table};
+use super::html::{Figure, case_name};
 use crate::ReportError;
-use crate::draw::{Axis, Line, MARKERS, Series, Style, plot};
 use crate::plan::{CHARTED, FAMILIES};
 use crate::report::Made;
 use crate::studies::front::{Point, stairs};
+use msdd_draw::html::{fixed, table};
+use msdd_draw::{Axis, Line, MARKERS, Series, Style, plot};
 use std::fmt::Write;
 
 const COST: Axis = Axis { label: "cost [core-s]", log: true, range: Some((0.05, 2e5)) };

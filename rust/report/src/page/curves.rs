@@ -2,11 +2,11 @@
 
 use super::html::{Figure, case_name};
 use crate::ReportError;
-use crate::draw::{Axis, Line, Marker, Series, Style, plot};
 use crate::plan::FAMILIES;
 use crate::report::Made;
 use crate::studies::detail::{WALL_COLUMNS, WALLS};
 use crate::studies::validation::Validated;
+use msdd_draw::{Axis, Line, Marker, Series, Style, plot};
 use msdd_reference::packings::Reference;
 use msdd_reference::series::statistics;
 use msdd_reference::series::{at, largest};

@@ -3,9 +3,9 @@
 use super::curves::{configurations, curves, keys};
 use super::html::{Figure, case_name};
 use crate::ReportError;
-use crate::draw::{Axis, Marker, Series, Style, maps, plot};
 use crate::plan::FAMILIES;
 use crate::report::Made;
+use msdd_draw::{Axis, Cells, Map, Marker, Series, Sheet, Style, maps, plot};
 use msdd_reference::compare::{reference_start, reference_sub_regions, sub_regions};
 use msdd_reference::series::statistics;
 use msdd_reference::series::{largest, root_mean_square, spread};
@@ -31,7 +31,7 @@ fn start_maps(made: &Made) -> Result<String, ReportError> {
         if let Some(runs) = names.first().and_then(|name| made.details.start.get(name)) {
             named.push(("solver", averaged(&values(runs, quantity), scale)));
         }
-        panels.push(maps(&format!("start: {label}"), digits, &named)?);
+        panels.push(in_sub_regions(&format!("start: {label}"), digits, &named));
     }
     let mut said = Vec::new();
     for (name, runs) in &made.details.start {
@@ -65,6 +65,16 @@ fn start_maps(made: &Made) -> Result<String, ReportError> {
     Figure { id: "start", panels, keys: Vec::new(), caption, source: SOURCE }.html(&made.report.made)
 }
 
+/// Maps of 10 x 3 sub-regions, one below the other with the same colours, each value written into its sub-region.
+fn in_sub_regions(title: &str, digits: usize, named: &[(&str, Vec<f64>)]) -> String {
+    let points = (0..44).map(|k| [f64::from(k % 11) * 0.215, f64::from(k / 11) * 0.215]).collect();
+    // From the lower left, x index fastest
+    let cell = |k: usize| [0, 1, 12, 11].map(|corner| k % 10 + k / 10 * 11 + corner).to_vec();
+    let cells = Cells::Polygons { points, cells: (0..30).map(cell).collect() };
+    let list: Vec<Map> = named.iter().map(|(name, values)| Map { name, cells: &cells, values }).collect();
+    maps(&Sheet { title, written: Some(digits), ..Sheet::default() }, &list)
+}
+
 /// Mean over the packings of values in sub-regions.
 fn averaged(by_packing: &[Vec<f64>], scale: f64) -> Vec<f64> {
     statistics(by_packing).into_iter().map(|(mean, _)| scale * mean).collect()
@@ -94,7 +104,11 @@ fn end_maps(made: &Made) -> Result<String, ReportError> {
                     named.push((name.as_str(), averaged(&values, scale)));
                 }
             }
-            panels.push(maps(&format!("case {}: {label}", case_name(&reference.case)), digits, &named)?);
+            panels.push(in_sub_regions(
+                &format!("case {}: {label}", case_name(&reference.case)),
+                digits,
+                &named,
+            ));
         }
     }
     let caption = "Fig. #. Means over 10 × 3 sub-regions at the end, and over the packings (paper, Figs. 14, 16, 19): lighter means \
@@ -168,8 +182,8 @@ fn displacement_map(made: &Made) -> Result<String, ReportError> {
         ("solver minus discrete elements", differences),
     ];
     let panels = vec![
-        maps("case HC: u_x [mm]", 1, &named[..2])?,
-        maps("case HC: difference of u_x [mm]", 1, &named[2..])?,
+        in_sub_regions("case HC: u_x [mm]", 1, &named[..2]),
+        in_sub_regions("case HC: difference of u_x [mm]", 1, &named[2..]),
     ];
     Figure { id: "displacement", panels, keys: Vec::new(), caption, source: SOURCE }.html(&made.report.made)
 }

@@ -13,8 +13,9 @@ mod states;
 mod validation;
 
 use crate::ReportError;
-use crate::draw::escape;
 use crate::report::Made;
+use msdd_draw::escape;
+use msdd_draw::html::{head, numbered};
 use std::fmt::Write;
 
 /// The page's text.
@@ -24,7 +25,7 @@ use std::fmt::Write;
 pub fn text(made: &Made) -> Result<String, ReportError> {
     let report = &made.report;
     let stamp = &report.made;
-    let mut page = html::head("speed against accuracy");
+    let mut page = head("MSDD: speed against accuracy");
     let _ = writeln!(
         page,
         "<h1>Speed against accuracy</h1>\n<p>Heat conduction with thermal expansion in a bed of 15 000 grains: the solver against \
@@ -53,5 +54,5 @@ pub fn text(made: &Made) -> Result<String, ReportError> {
     for text in &report.left_out {
         let _ = writeln!(page, "<li>{}</li>", escape(text));
     }
-    Ok(html::numbered(&(page + "</ul>\n</body>\n</html>\n")))
+    Ok(numbered(&(page + "</ul>\n</body>\n</html>\n")))
 }

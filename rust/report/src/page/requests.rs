@@ -1,10 +1,11 @@
 //! Section of the page on runs that are asked for an accuracy: requested against true error, and the error bands.
 
-use super::html::{Figure, fixed, table};
+use super::html::Figure;
 use crate::ReportError;
-use crate::draw::{Axis, Line, MARKERS, Series, Style, plot};
 use crate::report::Made;
 use crate::studies::requests::{Band, Request, tallies};
+use msdd_draw::html::{fixed, table};
+use msdd_draw::{Axis, Line, MARKERS, Series, Style, plot};
 
 /// Kinds of scenes, and what they are for.
 const USES: [(&str, &str); 3] = [

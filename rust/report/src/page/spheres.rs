@@ -1,11 +1,12 @@
 //! The page on beds of spheres: error against cost beside discrete elements, beds that were measured, limits.
 
 use super::case::decades;
-use super::html::{Figure, fixed, head, numbered, table};
+use super::html::Figure;
 use crate::ReportError;
-use crate::draw::{Axis, Line, MARKERS, Series, Style, escape, from_data, plot, series};
 use crate::report::Made;
 use crate::studies::spheres::{FAMILIES, MEASURED, SphereRun, ZehnerBed};
+use msdd_draw::html::{fixed, head, numbered, table};
+use msdd_draw::{Axis, Line, MARKERS, Series, Style, escape, from_data, plot, series};
 use std::fmt::Write;
 
 /// Cases beside discrete elements.
@@ -35,7 +36,7 @@ const LIMITS: [&str; 8] = [
 pub fn text(made: &Made) -> Result<String, ReportError> {
     let report = &made.report;
     let stamp = &report.made;
-    let mut page = head("beds of spheres");
+    let mut page = head("MSDD: beds of spheres");
     let _ = writeln!(
         page,
         "<h1>Beds of spheres</h1>\n<p>The solver with the law of spheres beside discrete elements and measurements; made {} on {}, commit {}.{}</p>",
@@ -81,12 +82,8 @@ fn keys(runs: &[SphereRun], cases: &[&str]) -> Vec<(Style, String)> {
 /// Error against cost, both axes logarithmic.
 fn chart(title: &str, label: &str, lines: &[Series]) -> Result<String, ReportError> {
     let values = |of: fn(&(f64, f64)) -> f64| lines.iter().flat_map(|line| &line.points).map(of);
-    plot(
-        title,
-        &decades("cost [core-s]", values(|point| point.0)),
-        &decades(label, values(|point| point.1)),
-        lines,
-    )
+    let (x, y) = (decades("cost [core-s]", values(|point| point.0)), decades(label, values(|point| point.1)));
+    Ok(plot(title, &x, &y, lines)?)
 }
 
 fn against_cost(made: &Made, (name, quantity, unit): (&str, &str, &str)) -> Result<String, ReportError> {

@@ -3,11 +3,11 @@
 
 use super::html::{Figure, case_name};
 use crate::ReportError;
-use crate::draw::{Axis, Grain, Line, Series, Style, grains, plot};
 use crate::plan::{CHARTED, FAMILIES};
 use crate::report::Made;
 use crate::studies::detail::REGIONS;
 use crate::studies::known::{DATABASE, KnownStates};
+use msdd_draw::{Axis, Cells, Line, Map, Marker, Series, Sheet, Style, maps, plot};
 use msdd_reference::results::Table;
 use msdd_reference::solver::{COLUMNS, Run};
 
@@ -23,8 +23,7 @@ const PROBED: [(usize, &str, Style); 3] = [
     (14, "of P2", Style { colour: 2, line: Line::Dashed, ..STYLE }),
     (18, "of P3", Style { colour: 3, line: Line::Dotted, ..STYLE }),
 ];
-const STYLE: Style =
-    Style { colour: 1, marker: crate::draw::Marker::None, line: Line::Solid, hollow: false, size: 4 };
+const STYLE: Style = Style { colour: 1, marker: Marker::None, line: Line::Solid, hollow: false, size: 4 };
 const OTHERS: Style = Style { colour: 4, ..STYLE };
 const HULL: Style = Style { colour: 0, ..STYLE };
 
@@ -125,6 +124,13 @@ fn queries(made: &Made) -> Result<String, ReportError> {
     Figure { id: "queries", panels, keys, caption, source: &source }.html(&made.report.made)
 }
 
+/// A grain: centre and radius \[m\], and its largest overlap over its radius [%].
+struct Grain {
+    at: [f64; 2],
+    radius: f64,
+    value: f64,
+}
+
 /// Grains of a table, with the largest overlap of each over its radius [%].
 fn with_overlaps(table: &Table) -> Vec<Grain> {
     let all = |name: &str| table.column(name).unwrap_or_default();
@@ -175,12 +181,17 @@ fn around_the_middle(made: &Made) -> Result<String, ReportError> {
     let (mut panels, mut said) = (Vec::new(), Vec::new());
     for (name, window, list) in &shown {
         let inside = 100.0 * porosity(*window, list);
-        panels.push(grains(
-            &format!("{name}: porosity {inside:.1} %"),
-            *window,
-            list,
-            (most, "largest overlap over radius [%]"),
-        )?);
+        let title = format!("{name}: porosity {inside:.1} %");
+        let sheet = Sheet {
+            title: &title,
+            label: "largest overlap / radius [%]",
+            window: Some(*window),
+            range: Some((0.0, most)),
+            ..Sheet::default()
+        };
+        let cells = Cells::Circles(list.iter().map(|grain| (grain.at, grain.radius)).collect());
+        let values: Vec<f64> = list.iter().map(|grain| grain.value).collect();
+        panels.push(maps(&sheet, &[Map { name: "", cells: &cells, values: &values }]));
         said.push(format!("{name} {inside:.1} %"));
     }
     if panels.is_empty() {

@@ -1,11 +1,12 @@
 //! Section of the page that compares the solver with discrete elements: errors and targets. The figures are in `curves`,
 //! `fields`, `states` and `beyond`.
 
-use super::html::{case_name, fixed, table};
+use super::html::case_name;
 use super::{beyond, curves, fields, states};
 use crate::ReportError;
 use crate::report::Made;
 use crate::studies::validation::Validated;
+use msdd_draw::html::{fixed, table};
 
 /// Errors that the paper reports: case, T at P1, P2, P3 [% of the range], pressure [% of its range].
 const PAPER: [(&str, [&str; 3], &str); 3] =

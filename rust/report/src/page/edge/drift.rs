@@ -1,9 +1,9 @@
 //! Section of the page on models when a strain is divided into many increments.
 
 use crate::ReportError;
-use crate::draw::{Axis, Line, Marker, Style, plot, series};
 use crate::page::html::Figure;
 use crate::report::Made;
+use msdd_draw::{Axis, Line, Marker, Style, plot, series};
 
 pub fn drift(made: &Made) -> Result<String, ReportError> {
     let all = &made.report.failures.drift;

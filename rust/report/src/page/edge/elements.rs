@@ -1,10 +1,10 @@
 //! Section of the page on the limits of the discrete elements.
 
 use crate::ReportError;
-use crate::draw::{Axis, Line, Marker, Series, Style, from_data, plot, series};
 use crate::failures::elements::Limits;
 use crate::page::html::Figure;
 use crate::report::Made;
+use msdd_draw::{Axis, Line, Marker, Series, Style, from_data, plot, series};
 
 pub fn steps(made: &Made) -> Result<String, ReportError> {
     let steps = &made.report.failures.stable_steps;

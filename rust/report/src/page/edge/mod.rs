@@ -4,9 +4,9 @@ mod drift;
 mod elements;
 mod solver;
 
-use super::html::table;
 use crate::ReportError;
 use crate::report::Made;
+use msdd_draw::html::table;
 
 pub fn section(made: &Made) -> Result<String, ReportError> {
     let mut html = "<h2>Where methods break</h2>\n<p>The configuration of each row was run. <b>refused</b>: nothing was computed; <b>ended</b>: the run stopped with the \

@@ -1,10 +1,11 @@
 //! Section of the page on the limits of the solver's discretisation.
 
 use crate::ReportError;
-use crate::draw::{Axis, Line, Marker, Style, from_data, plot, series};
 use crate::failures::cycles::{Cycles, worst};
-use crate::page::html::{Figure, fixed};
+use crate::page::html::Figure;
 use crate::report::Made;
+use msdd_draw::html::fixed;
+use msdd_draw::{Axis, Line, Marker, Style, from_data, plot, series};
 
 /// A panel, the entries of its legend, and its part of the caption.
 type Part = (String, Vec<(Style, String)>, String);

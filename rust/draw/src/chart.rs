@@ -1,13 +1,8 @@
-//! Draws figures as SVG, small enough to be read on a phone: lines and markers on axes, and maps of sub-regions. Colours are
-//! from the palette of Okabe and Ito; series that differ in colour also differ in marker or dash.
+//! Draws lines and markers on axes. Colours are from the palette of Okabe and Ito; series that differ in colour also differ in
+//! marker or dash.
 
-mod grains;
-mod maps;
-
-pub use grains::{Grain, grains};
-pub use maps::maps;
-
-use crate::ReportError;
+use crate::DrawError;
+use crate::text::{escape, number};
 use plotters::coord::Shift;
 use plotters::coord::ranged1d::{Ranged, ValueFormatter};
 use plotters::prelude::*;
@@ -41,7 +36,7 @@ pub enum Marker {
     Star,
 }
 
-/// Markers of the kinds of configurations, in the order of [`crate::plan::FAMILIES`].
+/// Markers that can be told apart.
 pub const MARKERS: [Marker; 9] = [
     Marker::Circle,
     Marker::Square,
@@ -122,17 +117,78 @@ impl Axis<'_> {
 /// Draws lines and markers on axes. `title` stands above this panel of the figure.
 ///
 /// # Errors
-/// [`ReportError::Draw`].
-pub fn plot(title: &str, x: &Axis, y: &Axis, series: &[Series]) -> Result<String, ReportError> {
+/// [`DrawError`].
+pub fn plot(title: &str, x: &Axis, y: &Axis, series: &[Series]) -> Result<String, DrawError> {
+    with_keys(title, x, y, series, &[])
+}
+
+/// As [`plot`], with a legend between title and axes of those series that have a name.
+///
+/// # Errors
+/// [`DrawError`].
+pub fn plot_named(
+    title: &str,
+    x: &Axis,
+    y: &Axis,
+    named: Vec<(String, Series)>,
+) -> Result<String, DrawError> {
+    let (names, series): (Vec<String>, Vec<Series>) = named.into_iter().unzip();
+    let keys = names.into_iter().zip(&series).filter(|(name, _)| !name.is_empty());
+    with_keys(title, x, y, &series, &keys.map(|(name, one)| (one.style, name)).collect::<Vec<_>>())
+}
+
+fn with_keys(
+    title: &str,
+    x: &Axis,
+    y: &Axis,
+    series: &[Series],
+    keys: &[(Style, String)],
+) -> Result<String, DrawError> {
     let mut svg = String::new();
-    panel(&mut svg, title, x, y, series)
-        .map_err(|error| ReportError::Draw { figure: title.to_string(), problem: error.to_string() })?;
+    panel(&mut svg, title, x, y, series, keys)
+        .map_err(|error| DrawError { figure: title.to_string(), problem: error.to_string() })?;
     Ok(responsive(&svg, title))
 }
 
-fn panel(svg: &mut String, title: &str, x: &Axis, y: &Axis, series: &[Series]) -> Drawn {
-    let root = SVGBackend::with_string(svg, SIZE).into_drawing_area();
-    root.fill(&WHITE)?;
+/// Space of a character and of the sign of a key, and height of a row of keys \[px\].
+const LETTER: i32 = 7;
+const SIGN: i32 = 42;
+const ROW: i32 = 18;
+
+/// Places of the keys in rows that are as wide as the figure, and the number of rows.
+fn places(keys: &[(Style, String)]) -> (Vec<(i32, i32)>, i32) {
+    let (mut x, mut row) = (0, 0);
+    let mut place = |text: &str| {
+        let wide = SIGN + LETTER * text.chars().count() as i32 + 8;
+        if x > 0 && x + wide > SIZE.0 as i32 - 20 {
+            (x, row) = (0, row + 1);
+        }
+        x += wide;
+        (10 + x - wide, row)
+    };
+    let places: Vec<(i32, i32)> = keys.iter().map(|(_, text)| place(text)).collect();
+    let rows = places.last().map_or(0, |last| last.1 + 1);
+    (places, rows)
+}
+
+fn panel(
+    svg: &mut String,
+    title: &str,
+    x: &Axis,
+    y: &Axis,
+    series: &[Series],
+    keys: &[(Style, String)],
+) -> Drawn {
+    let (places, rows) = places(keys);
+    let whole = SVGBackend::with_string(svg, (SIZE.0, SIZE.1 + (rows * ROW) as u32)).into_drawing_area();
+    whole.fill(&WHITE)?;
+    let (head, root) = whole.split_vertically(if title.is_empty() { 4 } else { 30 } + rows * ROW);
+    head.draw(&Text::new(title.to_string(), (10, 8), (FONT, 16)))?;
+    for ((style, text), (x, row)) in keys.iter().zip(places) {
+        let y = 28 + ROW * row;
+        sample(&head, *style, (x, y))?;
+        head.draw(&Text::new(text.clone(), (x + 40, y), (FONT, 13)))?;
+    }
     let xs = x.range(series.iter().flat_map(|s| s.points.iter().map(|p| p.0)));
     let with_bars = |s: &Series| -> Vec<f64> {
         let bar = |k: usize| s.bars.get(k).copied().unwrap_or(0.0);
@@ -140,23 +196,15 @@ fn panel(svg: &mut String, title: &str, x: &Axis, y: &Axis, series: &[Series]) -
     };
     let ys = y.range(series.iter().flat_map(with_bars));
     let mut builder = ChartBuilder::on(&root);
-    builder.caption(title, (FONT, 16)).margin(6).margin_right(18).x_label_area_size(42).y_label_area_size(58);
+    builder.margin(6).margin_right(18).x_label_area_size(42).y_label_area_size(62);
     match (x.log, y.log) {
         (false, false) => fill(builder.build_cartesian_2d(xs, ys)?, x, y, series)?,
         (true, false) => fill(builder.build_cartesian_2d(xs.log_scale(), ys)?, x, y, series)?,
         (false, true) => fill(builder.build_cartesian_2d(xs, ys.log_scale())?, x, y, series)?,
         (true, true) => fill(builder.build_cartesian_2d(xs.log_scale(), ys.log_scale())?, x, y, series)?,
     }
-    root.present()?;
+    whole.present()?;
     Ok(())
-}
-
-fn number(value: f64) -> String {
-    match value.abs() {
-        v if v < 1e-12 => "0".to_string(),
-        v if !(1e-3..1e5).contains(&v) => format!("{value:.0e}"),
-        _ => format!("{}", (1e6 * value).round() / 1e6),
-    }
 }
 
 fn fill<X, Y>(
@@ -241,37 +289,39 @@ fn outlines(style: Style) -> Vec<(Vec<(i32, i32)>, bool)> {
 /// A short piece of a line with its marker, for the legend.
 ///
 /// # Errors
-/// [`ReportError::Draw`].
-pub fn key(style: Style) -> Result<String, ReportError> {
+/// [`DrawError`].
+pub fn key(style: Style) -> Result<String, DrawError> {
     let mut svg = String::new();
     let draw = |svg: &mut String| -> Drawn {
         let root = SVGBackend::with_string(svg, (34, 14)).into_drawing_area();
-        let stroke = style.rgb().stroke_width(2);
-        let dash = |from: i32, to: i32| PathElement::new(vec![(from, 7), (to, 7)], stroke);
-        match style.line {
-            Line::None => {}
-            Line::Solid => root.draw(&dash(1, 33))?,
-            Line::Dashed => {
-                [(1, 9), (13, 21), (25, 33)].iter().try_for_each(|&(a, b)| root.draw(&dash(a, b)))?
-            }
-            Line::Dotted => (0..7).try_for_each(|k| root.draw(&dash(1 + 5 * k, 3 + 5 * k)))?,
-        }
-        marker_at(&root, style, (17, 7))?;
+        sample(&root, style, (0, 0))?;
         root.present()?;
         Ok(())
     };
     draw(&mut svg)
-        .map_err(|error| ReportError::Draw { figure: "a legend".to_string(), problem: error.to_string() })?;
+        .map_err(|error| DrawError { figure: "a legend".to_string(), problem: error.to_string() })?;
     Ok(svg.lines().filter(|line| !line.starts_with("<?xml")).collect::<Vec<_>>().join(""))
 }
 
-fn marker_at(root: &DrawingArea<SVGBackend, Shift>, style: Style, (x, y): (i32, i32)) -> Drawn {
+/// A short piece of a line with its marker, from the upper left corner of its 34 x 14 pixels.
+fn sample(area: &DrawingArea<SVGBackend, Shift>, style: Style, (x, y): (i32, i32)) -> Drawn {
+    let stroke = style.rgb().stroke_width(2);
+    let pieces: Vec<(i32, i32)> = match style.line {
+        Line::None => Vec::new(),
+        Line::Solid => vec![(1, 33)],
+        Line::Dashed => vec![(1, 9), (13, 21), (25, 33)],
+        Line::Dotted => (0..7).map(|k| (1 + 5 * k, 3 + 5 * k)).collect(),
+    };
+    for (from, to) in pieces {
+        area.draw(&PathElement::new(vec![(x + from, y + 7), (x + to, y + 7)], stroke))?;
+    }
     for (outline, filled) in outlines(style) {
-        let outline: Vec<(i32, i32)> = outline.into_iter().map(|(dx, dy)| (x + dx, y + dy)).collect();
+        let outline: Vec<(i32, i32)> =
+            outline.into_iter().map(|(dx, dy)| (x + 17 + dx, y + 7 + dy)).collect();
         if filled {
-            root.draw(&Polygon::new(outline, style.rgb().filled()))?;
+            area.draw(&Polygon::new(outline, style.rgb().filled()))?;
         } else {
-            root.draw(&PathElement::new(outline, style.rgb().stroke_width(2)))?;
+            area.draw(&PathElement::new(outline, stroke))?;
         }
     }
     Ok(())
@@ -285,11 +335,6 @@ pub fn series(points: Vec<(f64, f64)>, style: Style) -> Series {
 /// An axis whose range is that of the data.
 pub fn from_data(label: &str, log: bool) -> Axis<'_> {
     Axis { label, log, range: None }
-}
-
-/// Text with the characters escaped that have a meaning in HTML and SVG.
-pub fn escape(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 
 /// The SVG for a page: as wide as the space that it has, and with a title for screen readers.
@@ -324,6 +369,17 @@ mod tests {
         }
         assert_eq!(svg.matches("#D55E00").count(), 2, "two markers");
         assert!(!svg.contains("width=\"480\" height=\"330\" viewBox"), "scales with the page");
+    }
+
+    #[test]
+    fn a_legend_is_above_the_axes_and_needs_no_more_width() {
+        let one = |colour| series(vec![(1.0, 1.0), (2.0, 3.0)], Style::line(colour, Line::Solid));
+        let named = (0..9).map(|k| (format!("a name of a series, {k}"), one(k)));
+        let svg = plot_named("case H", &X, &Y, named.chain([(String::new(), one(0))]).collect()).unwrap();
+        assert_eq!(svg.matches("a name of a series").count(), 9);
+        // Two in a row, five rows of 18 px
+        assert!(svg.contains("viewBox=\"0 0 480 420\""), "{}", &svg[..200]);
+        assert!(svg.matches("<polyline").count() > 10);
     }
 
     #[test]
