@@ -51,7 +51,7 @@ pub struct Law {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Element {
-    /// Growth of the stress ratio by a unit of shear strain over v, at x = 0 and u = 1. Of the fabric: for each
+    /// Growth of the stress ratio by a unit of shear strain over v, at x = 0 and u = 1. Of the fabric: over v_f, for each
     /// contact per sphere beyond [`Law::least_contacts`], at any x, u and g.
     pub stiffness: f64,
     /// The stress ratio is at most `strength` e^(`growth` x + `free` g) min(√u, 1)^`hardening`.
@@ -274,7 +274,7 @@ impl Law {
         for (k, ratio) in ratios.iter_mut().enumerate() {
             let most = self.strength(k, x, free, loaded).by(Self::factor(k, state.strength));
             if k == FABRIC {
-                let stiffness = self.turning(usual.bearing(state.coordination)) * over;
+                let stiffness = self.turning(usual.bearing(state.coordination)) * over_strain(after, usual);
                 *ratio = reoriented(ratio, &distortion, stiffness, most, self.forgetting);
                 continue;
             }
@@ -332,6 +332,13 @@ impl Law {
     }
 }
 
+/// 1/v_f, see [`super`].
+#[inline(always)]
+fn over_strain<N: Number>(v: N, usual: &Usual<N>) -> N {
+    let least = usual.forgets.times(-HARDLY).plus(HARDLY);
+    (v * v + least * least).root().inverse()
+}
+
 /// The exponential function to the fourth order, for exponents that are small but where nearly all load is lost.
 #[inline(always)]
 fn near_exponential<N: Number>(x: N) -> N {
@@ -340,8 +347,8 @@ fn near_exponential<N: Number>(x: N) -> N {
     (second.plus(1.0) * x).plus(1.0)
 }
 
-/// The stress ratio of the fabric after a shear strain: dη = −c de/v − (c/M) (α + (1 − α) f²) η |de|/v with f = (η·t)₊/M and the
-/// direction t of −de, so that it goes to its strength M along t; `stiffness` is c/v, `always` is α: with 1 it would be the rule of
+/// The stress ratio of the fabric after a shear strain: dη = −c de/v_f − (c/M) (α + (1 − α) f²) η |de|/v_f with f = (η·t)₊/M and the
+/// direction t of −de, so that it goes to its strength M along t; `stiffness` is c/v_f, `always` is α: with 1 it would be the rule of
 /// Armstrong and Frederick, with 0 small cycles would hardly change the fabric.
 #[inline(always)]
 fn reoriented<N: Number>(

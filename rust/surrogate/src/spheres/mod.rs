@@ -16,11 +16,12 @@
 //! [`law::Law::deviator`]. One that starts with more than all strengths has larger ones for good ([`state::State::strength`]).
 //!
 //! **Fabric.** The last element is that of the fabric, the directions of the contacts: where more contacts point along one axis,
-//! isotropic compression loads that axis more. It does not slide but turns with the strain, dη_f = c_f |de|/v (t − (α + (1 − α) f²)
+//! isotropic compression loads that axis more. It does not slide but turns with the strain, dη_f = c_f |de|/v_f (t − (α + (1 − α) f²)
 //! η_f/M_f) + m_f η_f dv/v with t = −de/|de| and f = (η_f·t)₊/M_f, the slower the nearer it is to its strength (with α = 1: Armstrong
 //! and Frederick, 1966, CEGB report RD/B/N731). The
 //! fit holds η_f to a fitted number times the deviator of the fabric. Its stiffness c_f is proportional to the contacts per sphere
-//! that bear load beyond some, z_b − z₀, and depends on nothing else. The other elements
+//! that bear load beyond some, z_b − z₀, and depends on nothing else. v_f² = v² + ((1 − F) 1.5e-4)² with F of [`contacts`], which is 0
+//! where nearly all friction is mobilised: there the fabric of a packing that hardly bears load turns no faster. The other elements
 //! stand for the friction of contacts: three of unequal strength, so that a packing that is strained the other way is stiff at first
 //! and then gives way little by little.
 //!
