@@ -14,7 +14,6 @@ License
     any later version. It comes without any warranty: see the file LICENSE.
 \*---------------------------------------------------------------------------*/
 
-
 #include "pressureFlow.H"
 #include "meshWavePatchDistMethod.H"
 
