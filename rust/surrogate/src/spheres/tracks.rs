@@ -163,41 +163,61 @@ pub fn follow_from(law: &Law, track: &Track, packed: State) -> Vec<State> {
     states
 }
 
-/// Secants, and the relative error of the stress from which no more are needed.
-const SECANTS: u32 = 12;
+/// Evaluations of the law in the search for a strain, and the relative error of the stress from which no more are needed.
+const EVALUATIONS: u32 = 60;
 const NEAR: f64 = 1e-6;
 
-/// The state after a step in which the cell gives way along an axis until it has the stress of the data there, or the nearest that was
-/// found.
+/// The state after a step in which the cell yields along an axis until it has the stress of the data there, or the nearest that was
+/// found. The stress falls with the extension, so two extensions with too much and too little stress are searched for and then drawn
+/// together by the rule of Illinois, with bisection where it is slow. The number of parts is that of the recorded strain: if it depended
+/// on the strain that is sought, the stress would jump with it.
 fn given_way(law: &Law, from: &State, step: &Step, axis: usize) -> State {
     let target = step.to.stress[axis];
-    let at = |extension: f64| {
+    let parts = parts(step.thermal, step.stretch);
+    let near = NEAR * target.abs();
+    let (mut best, mut least) = (*from, f64::INFINITY);
+    let mut missed = |extension: f64| {
         let mut stretch = step.stretch;
         stretch[axis] = extension;
-        let state = advanced(law, from, step.thermal, stretch);
-        (law.stress(&state)[axis] - target, state)
+        let state = in_parts(law, from, step.thermal, stretch, parts);
+        let missed = law.stress(&state)[axis] - target;
+        if missed.abs() < least {
+            (best, least) = (state, missed.abs());
+        }
+        missed
     };
     let longest = step.stretch.iter().fold(step.thermal.abs(), |a, b| a.max(b.abs()));
-    let mut before = step.stretch[axis];
-    let (mut missed, mut best) = at(before);
-    let mut here = before + 0.1 * f64::signum(missed) * longest;
-    let mut least = missed.abs();
-    for _ in 0..SECANTS {
-        if least <= NEAR * target.abs() {
-            break;
+    let first = step.stretch[axis];
+    let (mut closed, mut open) = ((first, missed(first)), (first, 0.0));
+    open.1 = closed.1;
+    let mut width = 0.1 * longest;
+    let mut evaluations = EVALUATIONS;
+    while evaluations > 0 && (closed.1 < 0.0 || open.1 > 0.0) {
+        if closed.1 < 0.0 {
+            open = closed;
+            closed = (closed.0 - width, missed(closed.0 - width));
+        } else {
+            closed = open;
+            open = (open.0 + width, missed(open.0 + width));
         }
-        let (now, state) = at(here);
-        if now.abs() < least {
-            (least, best) = (now.abs(), state);
-        }
-        let slope = (now - missed) / (here - before);
-        // The stress falls as the cell gives way; where it does not, the cell bears no load.
-        let next = if slope < 0.0 { -now / slope } else { f64::signum(now) * longest };
-        (before, missed) = (here, now);
-        here += next.clamp(-longest, longest);
-        if here == before {
-            break;
-        }
+        width *= 2.0;
+        evaluations -= 1;
+    }
+    // Weights of the stresses, less for an end that stays while the other moves twice.
+    let (mut weights, mut before, mut closer) = ([1.0, 1.0], f64::INFINITY, None);
+    while evaluations > 0 && closed.1.min(-open.1) > near {
+        let (high, low) = (weights[0] * closed.1, weights[1] * -open.1);
+        let length = open.0 - closed.0;
+        let share = if length > 0.5 * before { 0.5 } else { high / (high + low) };
+        before = length;
+        let middle = closed.0 + share * length;
+        let stress = missed(middle);
+        let end = usize::from(stress <= 0.0);
+        *[&mut closed, &mut open][end] = (middle, stress);
+        weights[end] = 1.0;
+        weights[1 - end] *= if closer == Some(end) { 0.5 } else { 1.0 };
+        closer = Some(end);
+        evaluations -= 1;
     }
     best
 }
@@ -210,7 +230,11 @@ pub fn parts(thermal: f64, stretch: Tensor) -> f64 {
 
 /// The state after a straight line of strain, in as many parts as it is long.
 pub fn advanced(law: &Law, state: &State, thermal: f64, stretch: Tensor) -> State {
-    let parts = parts(thermal, stretch);
+    in_parts(law, state, thermal, stretch, parts(thermal, stretch))
+}
+
+/// The same in so many parts.
+fn in_parts(law: &Law, state: &State, thermal: f64, stretch: Tensor, parts: f64) -> State {
     (0..parts as u32).fold(*state, |state, part| {
         let of = |whole: f64| whole / (parts + whole * f64::from(part));
         let [xx, yy, zz, xy, xz, yz] = stretch.map(of);
