@@ -143,7 +143,7 @@ inline msdd_initial initial(std::size_t cells) noexcept
     return result;
 }
 
-/** Least and largest value of a quantity by which the model with this hash was compared with discrete elements, see msdd_compared.
+/** Least and largest value of a quantity by which the model with this hash was compared with DEM, see msdd_compared.
  *  Returns false and sets nothing if it was not. */
 inline bool compared(const std::string& hash, const std::string& quantity, double& least, double& most)
 {
@@ -367,7 +367,7 @@ private:
     std::unique_ptr<msdd_spheres, detail::Free> handle_;
 };
 
-/** A box of grains, simulated by discrete elements. It can be moved, and copied by clone() alone. Only one thread at a time
+/** A box of grains, simulated by DEM. It can be moved, and copied by clone() alone. Only one thread at a time
  *  may use it. */
 class Rve
 {

@@ -17,7 +17,7 @@ License
 #include "dryRun.H"
 #include "restartTime.H"
 #include "caseChecks.H"
-#include "sceneWarnings.H"
+#include "caseWarnings.H"
 #include "chooseSettings.H"
 #include "timeControlFunctionObject.H"
 #include "cellSetOption.H"
@@ -158,7 +158,7 @@ bool Foam::dryRun::makeObjects()
         (
             [&]()
             {
-                const sceneWarnings warnings
+                const caseWarnings warnings
                 (
                     made.properties(), made.T(), made.grains(), made.mechanics()
                 );

@@ -261,7 +261,7 @@ void Foam::dryRun::tryRegion(regionObjects& region)
             }
         );
     }
-    attempt([&]() { warnings_.append(region.doubts()); });
+    attempt([&]() { warnings_.append(region.warnings()); });
     if (!region.isFluid() && errors_.size() == before)
     {
         attemptIn

@@ -44,7 +44,7 @@ Usage
 
     Writes  T, porosity, fabricIndex, conductivity, stress (tension positive),
             pressure (compression positive), bulkDensity, particleDensity,
-            thermalStrain, inRegion, spread if the model knows; for restarts
+            thermalStrain, inTrainingRange, spread if the model knows; for restarts
             initialTemperature, thermalStrainIncrement, the rest of the model's
             state and uniform/msddFoam, the last file of a time: what the run
             was computed with, and the checksums of the other files;
@@ -66,7 +66,7 @@ Usage
 #include "runTables.H"
 
 #include "runSummary.H"
-#include "sceneWarnings.H"
+#include "caseWarnings.H"
 #include "version.H"
 
 #include <iostream>
@@ -198,7 +198,7 @@ int main(int argc, char *argv[])
     timeScheme& scheme = made.scheme();
     const runSummary summary(made.properties(), T, grains, mechanics, wallClock);
     grains.record().findFiles();
-    const sceneWarnings warnings(made.properties(), T, grains, mechanics);
+    const caseWarnings warnings(made.properties(), T, grains, mechanics);
     warnings.print();
 
     stepWatch watch(scheme.waitLimit());
@@ -232,7 +232,7 @@ int main(int argc, char *argv[])
     made.neighbours->report();
     summary.write
     (
-        scheme.rejected(), warnings.all(), made.neighbours->doubt(),
+        scheme.rejected(), warnings.all(), made.neighbours->warning(),
         scheme.flow()
     );
 

@@ -18,7 +18,7 @@ License
 #include "foamVersions.H"
 #include "granularSolidThermo.H"
 #include "mappedPatchBase.H"
-#include "sceneWarnings.H"
+#include "caseWarnings.H"
 #include "fvmDdt.H"
 #include "fvmLaplacian.H"
 #include "zeroGradientFvPatchFields.H"
@@ -435,7 +435,7 @@ void Foam::regionObjects::trySolid()
 }
 
 
-Foam::DynamicList<Foam::string> Foam::regionObjects::doubts()
+Foam::DynamicList<Foam::string> Foam::regionObjects::warnings()
 {
     DynamicList<string> found;
     if (!solid_.valid() || solid_->type() != bedThermo)
@@ -447,7 +447,7 @@ Foam::DynamicList<Foam::string> Foam::regionObjects::doubts()
     (
         granularMechanics::New(bed.grainProperties(), bed.grains())
     );
-    const sceneWarnings warnings
+    const caseWarnings warnings
     (
         bed.grainProperties(), bed.T(), bed.grains(), mechanics()
     );

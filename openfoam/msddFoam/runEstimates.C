@@ -38,17 +38,17 @@ Foam::string Foam::runSummary::comparison() const
     const runCourse& course = grains_.record().course;
     if (!course.compared())
     {
-        return "no comparison of it with discrete elements is known";
+        return "no comparison of it with DEM is known";
     }
     const stringList beyond(course.beyond());
     if (beyond.empty())
     {
         return
-            "the run lies within what it was compared with by discrete elements";
+            "the run lies within what it was compared with by DEM";
     }
     string text
     (
-        "the run lies beyond what it was compared with by discrete elements: "
+        "the run lies beyond what it was compared with by DEM: "
     );
     forAll(beyond, i)
     {
@@ -60,7 +60,7 @@ Foam::string Foam::runSummary::comparison() const
 
 Foam::string Foam::runSummary::radiation() const
 {
-    if (!grains_.model().spatial())
+    if (!grains_.model().isThreeDimensional())
     {
         return string();
     }
@@ -75,7 +75,7 @@ Foam::string Foam::runSummary::radiation() const
       ? string()
       : string
         (
-            (found.missing ? "Doubt: Radiation " : "Radiation: it ")
+            (found.missing ? "Warning: Radiation " : "Radiation: it ")
           + found.text + "."
         );
 }
@@ -83,7 +83,7 @@ Foam::string Foam::runSummary::radiation() const
 
 Foam::string Foam::runSummary::contacts() const
 {
-    if (!grains_.model().spatial())
+    if (!grains_.model().isThreeDimensional())
     {
         return string();
     }
@@ -96,7 +96,7 @@ Foam::string Foam::runSummary::contacts() const
     return
         found.text.empty()
       ? string()
-      : string((found.beyond ? "Doubt: " : "Contacts: ") + found.text + ".");
+      : string((found.beyond ? "Warning: " : "Contacts: ") + found.text + ".");
 }
 
 

@@ -68,10 +68,10 @@ Foam::string Foam::runSummary::range() const
         " about lay outside the range that it was made for, where it answers as"
         " well as it can. At the end "
       + Foam::name(grains_.cellsOutside()) + " of " + Foam::name(cells)
-      + " cells are outside (field inRegion is 0 there)."
+      + " cells are outside (field inTrainingRange is 0 there)."
       + outsideBy()
       + (
-            grains_.model().tellColumns()
+            grains_.model().reportsDistances()
           ? " Such cells, at most 10000 of each process, are listed in"
             " postProcessing/msddFoam/offenders.json."
           : ""
@@ -105,16 +105,16 @@ Foam::string Foam::runSummary::outsideBy() const
 }
 
 
-Foam::string Foam::runSummary::doubt() const
+Foam::string Foam::runSummary::warning() const
 {
     const scalar spread = grains_.meanSpread();
     if (spread < 0)
     {
-        return "Doubt: this model does not tell how far packings of equal state"
+        return "Warning: this model does not tell how far packings of equal state"
             " differ.";
     }
     return
-        "Doubt: small boxes of grains of equal state differ by "
+        "Warning: small boxes of grains of equal state differ by "
       + brief(100*spread) + " % in conductivity (standard deviation, mean over"
         " the bed); a cell cannot be known better than that.";
 }
@@ -127,7 +127,7 @@ Foam::string Foam::runSummary::balance(const heatBalance& heat) const
         return "Heat: none went into the bed or out of it.";
     }
     return
-        string(heat.difference() > runRecord::muchHeat ? "Doubt: heat is lost or made. " : "")
+        string(heat.difference() > runRecord::muchHeat ? "Warning: heat is lost or made. " : "")
       + "Heat: since the start " + brief(heat.patches) + " J came in"
         " through the boundary and " + brief(heat.sources) + " J from sources;"
         " the grains hold " + brief(heat.stored) + " J more. Heat received and"
@@ -151,7 +151,7 @@ Foam::string Foam::runSummary::unloaded() const
     };
     string text
     (
-        "Doubt: the bed was nearly without load, its mean pressure below "
+        "Warning: the bed was nearly without load, its mean pressure below "
       + brief(100*runCourse::slightLoad) + " % of the largest before, from "
       + seconds(relief.since) + " to " + seconds(relief.until) + " s"
     );
@@ -163,7 +163,7 @@ Foam::string Foam::runSummary::unloaded() const
           + seconds(relief.whole) + " s in all";
     }
     text += ". The least mean pressure was " + pascals(relief.least) + '.';
-    if (grains_.model().spatial() && mechanics_.type() != "none")
+    if (grains_.model().isThreeDimensional() && mechanics_.type() != "none")
     {
         text +=
             " Spheres that are sheared near no load compact more than the law"
@@ -185,7 +185,7 @@ Foam::string Foam::runSummary::contact() const
     const label cells =
         returnReduce(grains_.mesh().nCells(), sumOp<label>());
     return loose
-      ? "Doubt: grains in " + Foam::name(loose) + " of " + Foam::name(cells)
+      ? "Warning: grains in " + Foam::name(loose) + " of " + Foam::name(cells)
       + " cells bear no load at the end. Where they have lost touch they lie"
         " about as no model of a bed under load knows."
       : string();

@@ -142,7 +142,7 @@ void Foam::runSummary::write
     (
         const string& sentence :
         {
-            range(), radiation(), contacts(), doubt(), unloaded(), contact(),
+            range(), radiation(), contacts(), warning(), unloaded(), contact(),
             balance(heat), solids, steadiness(heat), motion(), cost()
         }
     )
@@ -223,7 +223,7 @@ void Foam::runSummary::write
         << "    \"fabric\": " << meanFabric << ",\n"
         << "    \"conductivity_xx\": " << meanK.xx() << ",\n"
         << "    \"conductivity_yy\": " << meanK.yy() << ",\n";
-    if (grains_.model().spatial())
+    if (grains_.model().isThreeDimensional())
     {
         os  << "    \"conductivity_zz\": " << meanK.zz() << ",\n"
             << "    \"stress_zz\": " << -meanStress.zz() << ",\n";

@@ -280,10 +280,10 @@ Foam::string Foam::granularFlows::bedFlow::rangeSentence() const
 {
     OStringStream os;
     os.precision(3);
-    const auto many = [&os](const bool doubt)
+    const auto many = [&os](const bool warning)
     {
-        os  << (os.str().empty() ? "" : " ") << (doubt ? "Doubt: " : "");
-        return doubt;
+        os  << (os.str().empty() ? "" : " ") << (warning ? "Warning: " : "");
+        return warning;
     };
     const auto outside = [&](const label cells, const string& what)
     {

@@ -214,7 +214,7 @@ Foam::List<Foam::string> Foam::granularFlows::bedFlow::sentences() const
     }
     flow<< ". " << temperatures().c_str();
     heat.precision(4);
-    heat<< (difference() > mostDifference ? "Doubt: " : "")
+    heat<< (difference() > mostDifference ? "Warning: " : "")
         << "Heat of the flow: the gas lost " << all[entered] - all[left]
         << " J; " << all[toBed] << " J went to the grains, " << all[held]
         << " J stayed in the pores, " << all[gasToWall]

@@ -47,7 +47,7 @@ namespace granularFlows
     static const scalar slow = 0.01;
 
     //- Mass that the pores lose or gain, over what enters, above which the run
-    //- reports a doubt
+    //- reports a warning
     static const scalar mostExpelled = 0.05;
 }
 }
@@ -574,13 +574,13 @@ Foam::string Foam::granularFlows::pressure::sentenceOfKind() const
         << " Newton iterations in the mean, at most " << mostNewton_ << ".";
     if (unsettled_)
     {
-        os  << " Doubt: Flow: " << unsettled_ << " of " << flows_
+        os  << " Warning: Flow: " << unsettled_ << " of " << flows_
             << " solutions for the pressure did not converge in " << mostNewton
             << " iterations.";
     }
     if (expelled_ > mostExpelled*entered_)
     {
-        os  << " Doubt: Flow: the gas in the pores loses or gains "
+        os  << " Warning: Flow: the gas in the pores loses or gains "
             << expelled_/entered_ << " of the mass that enters, because its"
             << " temperature changes; that mass is left out of the flow,"
             << " allowed: " << mostExpelled << ".";

@@ -293,7 +293,7 @@ void Foam::elementMesh::faceWeights
 }
 
 
-Foam::scalar Foam::elementMesh::unfittedScale
+Foam::scalar Foam::elementMesh::stabilisationScale
 (
     const label celli,
     const shapes& reference

@@ -82,7 +82,7 @@ const keyTable stressLaw::equilibriumKeys
             "by how much more discs overlap with a `rigid` or `frictionless`"
             " wall than the bed that would be there is shortened, for a normal"
             " stress of E r/l ([computation](../theory/equilibrium.md#walls))."
-            " Walls with `give` have none", "mean radii",
+            " Walls with `slackLayer` have none", "mean radii",
             "0 to 1000; of spheres and with `law elastic` 0",
             "1.4; of spheres and with `law elastic` 0"
         }
@@ -121,7 +121,7 @@ Foam::granularMechanicsModels::equilibrium::equilibrium
         grains.model(),
         nodes_,
         properties.meanRadius().value(),
-        law_->elastic() || grains.model().spatial(),
+        law_->elastic() || grains.model().isThreeDimensional(),
         springs(properties)
     ),
     read_(placesLost() ? IOobject::NO_READ : IOobject::READ_IF_PRESENT),
@@ -194,7 +194,7 @@ Foam::granularMechanicsModels::equilibrium::equilibrium
     r_(u_),
     before_(0),
     left_(0),
-    broken_(-1),
+    invalidCell_(-1),
     norm_(0),
     placed_(false),
     diagonal_(u_),
@@ -206,7 +206,7 @@ Foam::granularMechanicsModels::equilibrium::equilibrium
     if (law_->elastic() && walls_.gives())
     {
         FatalIOErrorInFunction(dict_)
-            << "A wall has entry 'give', allowed: 0 with law elastic, which has"
+            << "A wall has entry 'slackLayer', allowed: 0 with law elastic, which has"
             << " no grains that give way" << exit(FatalIOError);
     }
     if (read_ == IOobject::NO_READ && !law_->elastic())
@@ -217,7 +217,7 @@ Foam::granularMechanicsModels::equilibrium::equilibrium
     setResidual();
     if (!law_->elastic())
     {
-        grains_.letDeform(walls_.strength());
+        grains_.enableDeformation(walls_.strength());
     }
     readNodes(nodeDisplacement_, u_);
     readNodes(nodeVelocity_, velocity_);
@@ -228,13 +228,13 @@ Foam::granularMechanicsModels::equilibrium::equilibrium
     }
     readNodes(wallTraction_, traction_);
     readNodes(wallGive_, give_);
-    // Where 'give' was taken out at a restart, what was given stays
+    // Where 'slackLayer' was taken out at a restart, what was given stays
     if (!walls_.gives() && !(gMax(mag(wallGive_.primitiveField())()) > 0))
     {
         wallGive_.writeOpt() = IOobject::NO_WRITE;
     }
-    broken_ = nodes_.findShapes(nodes_.points(), reference_);
-    if (returnReduce(broken_ >= 0, orOp<bool>()))
+    invalidCell_ = nodes_.findShapes(nodes_.points(), reference_);
+    if (returnReduce(invalidCell_ >= 0, orOp<bool>()))
     {
         FatalErrorInFunction
             << "The mesh has cells that are turned inside out or have no"
@@ -294,7 +294,7 @@ Foam::scalar Foam::granularMechanicsModels::equilibrium::springs
     const granularProperties& properties
 ) const
 {
-    const bool discs = !law_->elastic() && !grains_.model().spatial();
+    const bool discs = !law_->elastic() && !grains_.model().isThreeDimensional();
     const keyTable& keys = stressLaw::equilibriumKeys;
     const word key("wallCompliance");
     const scalar compliance =
@@ -355,7 +355,7 @@ void Foam::granularMechanicsModels::equilibrium::addForce
     const label dim = nodes_.dim(), r = nodes_.radial();
     nodes_.each([&](const auto& e)
     {
-        const scalar middle = nodes_.unfittedScale(e.cell, reference_);
+        const scalar middle = nodes_.stabilisationScale(e.cell, reference_);
         for (label a = 0; a < e.size(); ++a)
         {
             const label node = e.nodes[a];
@@ -433,7 +433,7 @@ void Foam::granularMechanicsModels::equilibrium::setStart()
         borne = walls_.borneByShells(free);
         free -= borne;
     }
-    walls_.release(free);
+    walls_.project(free);
     scalar most = 0;
     forAll(start_, i)
     {
@@ -460,7 +460,7 @@ void Foam::granularMechanicsModels::equilibrium::compareWeight() const
     if
     (
         !(g > 0) || mesh_.time().timeIndex() > 0
-     || law_->elastic() || !grains_.model().spatial()
+     || law_->elastic() || !grains_.model().isThreeDimensional()
     )
     {
         return;
@@ -639,7 +639,7 @@ void Foam::granularMechanicsModels::equilibrium::findMetric()
     {
         return;
     }
-    if (grains_.model().spatial())
+    if (grains_.model().isThreeDimensional())
     {
         inverse_.resize(mesh_.nCells());
         forAll(inverse_, celli)

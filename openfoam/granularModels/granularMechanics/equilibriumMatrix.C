@@ -174,7 +174,7 @@ void Foam::granularMechanicsModels::equilibrium::setSolver()
         constexpr label dim = std::decay<decltype(e)>::type::dim;
         const scalar V = reference_.volume[e.cell];
         const scalar s =
-            unfitted*G*nodes_.unfittedScale(e.cell, reference_);
+            stabilisation*G*nodes_.stabilisationScale(e.cell, reference_);
         for (label a = 0; a < e.size(); ++a)
         {
             const scalar* B = reference_.gradient.cdata() + dim*(e.start + a);
@@ -187,7 +187,7 @@ void Foam::granularMechanicsModels::equilibrium::setSolver()
             {
                 uniform[dim*e.nodes[a] + k] +=
                     V*(G*square + (lambda + G)*sqr(B[k]))
-                  + s*nodes_.unfitted(e, a, a);
+                  + s*nodes_.stabilisation(e, a, a);
             }
             if (r >= 0)
             {
@@ -198,7 +198,7 @@ void Foam::granularMechanicsModels::equilibrium::setSolver()
         }
     });
     nodes_.sum(uniform);
-    walls_.eachStick([&](const label node, const scalar* t, const scalar k)
+    walls_.forEachTangentialStiffness([&](const label node, const scalar* t, const scalar k)
     {
         for (label j = 0; j < nodes_.dim(); ++j)
         {
@@ -210,7 +210,7 @@ void Foam::granularMechanicsModels::equilibrium::setSolver()
     (
         new equilibriumSolver
         (
-            nodes_, walls_, law_(), reference_, unfitted, uniform,
+            nodes_, walls_, law_(), reference_, stabilisation, uniform,
             [this](const nodeField& d, nodeField& f) { multiply(d, f); }
         )
     );
@@ -223,7 +223,7 @@ void Foam::granularMechanicsModels::equilibrium::findDiagonal()
     {
         return;     // that of the preconditioner, which does not change
     }
-    const scalar s = unfitted*law_->shear();
+    const scalar s = stabilisation*law_->shear();
     const label r = nodes_.radial();
     diagonal_ = 0;
     const auto add = [&](auto ring)
@@ -238,12 +238,12 @@ void Foam::granularMechanicsModels::equilibrium::findDiagonal()
                 tangents.of(std::integral_constant<label, dim>());
             const scalar V = shapes_.volume[e.cell];
             const scalar resistance =
-                s*nodes_.unfittedScale(e.cell, reference_);
+                s*nodes_.stabilisationScale(e.cell, reference_);
             for (label a = 0; a < e.size(); ++a)
             {
                 const scalar* B =
                     shapes_.gradient.cdata() + dim*(e.start + a);
-                const scalar own = resistance*nodes_.unfitted(e, a, a);
+                const scalar own = resistance*nodes_.stabilisation(e, a, a);
                 scalar* to = diagonal_.data() + dim*e.nodes[a];
                 for (label k = 0; k < dim; ++k)
                 {
@@ -269,7 +269,7 @@ void Foam::granularMechanicsModels::equilibrium::findDiagonal()
     };
     r < 0 ? add(std::false_type()) : add(std::true_type());
     nodes_.sum(diagonal_);
-    walls_.eachStick([&](const label node, const scalar* t, const scalar k)
+    walls_.forEachTangentialStiffness([&](const label node, const scalar* t, const scalar k)
     {
         for (label j = 0; j < nodes_.dim(); ++j)
         {
@@ -352,7 +352,7 @@ void Foam::granularMechanicsModels::equilibrium::multiplyGrains
         multiply
         (
             e,
-            s*nodes_.unfittedScale(e.cell, reference_),
+            s*nodes_.stabilisationScale(e.cell, reference_),
             [&]
             (
                 const label celli,
@@ -405,7 +405,7 @@ void Foam::granularMechanicsModels::equilibrium::multiplyGrains
             C.stress(celli, g, ring, all);
             std::copy(all, all + tangent::count, values);
         };
-        walls_.addGrip(stress, d, change);
+        walls_.addNormalCoupling(stress, d, change);
     };
     nodes_.dim() == 2
   ? grip(std::integral_constant<label, 2>())
@@ -422,7 +422,7 @@ void Foam::granularMechanicsModels::equilibrium::multiply
 {
     result.resize(d.size());
     result = 0;
-    const scalar s = unfitted*law_->shear();
+    const scalar s = stabilisation*law_->shear();
 
     if (law_->elastic())
     {
@@ -433,7 +433,7 @@ void Foam::granularMechanicsModels::equilibrium::multiply
             multiply
             (
                 e,
-                s*nodes_.unfittedScale(e.cell, reference_),
+                s*nodes_.stabilisationScale(e.cell, reference_),
                 [&]
                 (
                     const label,
@@ -471,7 +471,7 @@ void Foam::granularMechanicsModels::equilibrium::multiply
     }
     nodes_.sum(result);
     walls_.addStick(d, result);
-    walls_.release(result);
+    walls_.project(result);
 }
 
 

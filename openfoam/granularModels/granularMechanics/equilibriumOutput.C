@@ -117,12 +117,12 @@ Foam::string Foam::granularMechanicsModels::equilibrium::failure() const
     if (notGiven_)
     {
         return "the way by which grains give at the walls is not found; shorter"
-            " steps or a smaller 'give' may help";
+            " steps or a smaller 'slackLayer' may help";
     }
 
     // The invalid cell if there is one, else a cell at the node with the
     // largest imbalance
-    label celli = broken_, worst = 0;
+    label celli = invalidCell_, worst = 0;
     scalar most = 0;
     forAll(r_, i)
     {
@@ -133,7 +133,7 @@ Foam::string Foam::granularMechanicsModels::equilibrium::failure() const
             worst = i/nodes_.dim();
         }
     }
-    const bool torn = returnReduce(broken_ >= 0, orOp<bool>());
+    const bool torn = returnReduce(invalidCell_ >= 0, orOp<bool>());
     const bool here =
         torn ? celli >= 0 : most >= returnReduce(most, maxOp<scalar>());
 

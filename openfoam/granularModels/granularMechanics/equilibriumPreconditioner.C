@@ -101,9 +101,9 @@ void Foam::equilibriumSolver::assemble
 
     // Projections on the components that are free, of nodes that are held
     labelList heldIndex(mesh_.size(), -1);
-    forAll(walls_.held(), i)
+    forAll(walls_.constrainedNodes(), i)
     {
-        heldIndex[walls_.held()[i]] = i;
+        heldIndex[walls_.constrainedNodes()[i]] = i;
     }
     const auto freed = [&](const label node, tensor& P)
     {
@@ -134,7 +134,7 @@ void Foam::equilibriumSolver::assemble
         const scalar* hoop =
             r < 0 ? nullptr : reference.hoop.cdata() + e.start;
         const scalar s =
-            unfitted_*G*mesh_.unfittedScale(e.cell, reference);
+            unfitted_*G*mesh_.stabilisationScale(e.cell, reference);
         indices.resize(max(indices.size(), n));
         values.resize(max(values.size(), n*dim*n*dim));
         projections.resize(max(projections.size(), n));
@@ -156,7 +156,7 @@ void Foam::equilibriumSolver::assemble
                     both += Ba[k]*Bb[k];
                 }
                 const scalar diagonal =
-                    V*G*both + s*mesh_.unfitted(e, a, b);
+                    V*G*both + s*mesh_.stabilisation(e, a, b);
                 for (label i = 0; i < dim; ++i)
                 {
                     for (label j = 0; j < dim; ++j)
@@ -263,14 +263,14 @@ void Foam::equilibriumSolver::assemble
             }
         }
     };
-    walls_.eachStick([&](const label node, const scalar* t, const scalar k)
+    walls_.forEachTangentialStiffness([&](const label node, const scalar* t, const scalar k)
     {
         tensor P;
         freed(node, P);
         const vector along(P & vector(t[0], t[1], dim == 3 ? t[2] : 0));
         add(node, k*(along*along));
     });
-    for (const label node : walls_.held())
+    for (const label node : walls_.constrainedNodes())
     {
         tensor P;
         freed(node, P);
@@ -380,7 +380,7 @@ void Foam::equilibriumSolver::precondition
     const label rows = parts == 1 ? 0 : label(mesh_.owned().count());
     toField(from, in_);
     in_ *= scaling_;
-    walls_.loosen(in_);
+    walls_.removeConstrained(in_);
 
     double* x;
     if (parts == 1)
@@ -428,9 +428,9 @@ void Foam::equilibriumSolver::precondition
         }
         toField(all.cdata(), in_);
     }
-    walls_.loosen(in_);
+    walls_.removeConstrained(in_);
     in_ *= scaling_;
-    walls_.join(in_);
+    walls_.tie(in_);
     toVector(in_, to);
 }
 

@@ -162,7 +162,7 @@ Foam::equilibriumSolver::equilibriumSolver
     const wallConditions& walls,
     const stressLaw& law,
     const elementMesh::shapes& reference,
-    const scalar unfitted,
+    const scalar stabilisation,
     const scalarField& uniformDiagonal,
     const product& multiply
 )
@@ -170,7 +170,7 @@ Foam::equilibriumSolver::equilibriumSolver
     mesh_(mesh),
     walls_(walls),
     multiply_(multiply),
-    unfitted_(unfitted),
+    unfitted_(stabilisation),
     lambda_(law.lambda()),
     shear_(law.shear()),
     mediumDiagonal_(uniformDiagonal),
@@ -207,7 +207,7 @@ Foam::equilibriumSolver::equilibriumSolver
         solverKeys.number(controls, "maxIter", law.elastic() ? 1000 : 30)
     );
 
-    forAll(walls.held(), i)
+    forAll(walls.constrainedNodes(), i)
     {
         bool aligned = true;
         const label dim = mesh.dim();
@@ -218,7 +218,7 @@ Foam::equilibriumSolver::equilibriumSolver
         }
         if (!aligned)
         {
-            slanted_.append(walls.held()[i]);
+            slanted_.append(walls.constrainedNodes()[i]);
         }
     }
 

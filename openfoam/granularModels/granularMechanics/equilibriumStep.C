@@ -127,9 +127,9 @@ void Foam::granularMechanicsModels::equilibrium::findGradient
             gradient[4][e.cell] = ring;
         }
         // This also finds NaN
-        if (!(most < largestStrain) && broken_ < 0)
+        if (!(most < largestStrain) && invalidCell_ < 0)
         {
-            broken_ = e.cell;
+            invalidCell_ = e.cell;
         }
     });
 }
@@ -139,7 +139,7 @@ bool Foam::granularMechanicsModels::equilibrium::strain(const nodeField& du)
 {
     if (law_->elastic())
     {
-        broken_ = -1;
+        invalidCell_ = -1;
         findGradient(reference_, nodeField(u_ + du));
     }
     else
@@ -148,13 +148,13 @@ bool Foam::granularMechanicsModels::equilibrium::strain(const nodeField& du)
         // geometry half-way, at u + du/2: as a midpoint rule this is accurate
         // to second order in du, while the geometry at u or u + du gives first
         // order
-        broken_ = nodes_.findShapes(at(du, 0.5), shapes_);
-        if (broken_ < 0)
+        invalidCell_ = nodes_.findShapes(at(du, 0.5), shapes_);
+        if (invalidCell_ < 0)
         {
             findGradient(shapes_, du);
         }
     }
-    if (broken_ >= 0)
+    if (invalidCell_ >= 0)
     {
         return false;
     }
@@ -171,13 +171,13 @@ void Foam::granularMechanicsModels::equilibrium::addUnfitted
 ) const
 {
     const nodeField u(u_ + du);
-    const scalar s = unfitted*law_->shear();
+    const scalar s = stabilisation*law_->shear();
     nodes_.each([&](const auto& e)
     {
         nodes_.addUnfitted
         (
             e,
-            s*nodes_.unfittedScale(e.cell, reference_),
+            s*nodes_.stabilisationScale(e.cell, reference_),
             u.cdata(),
             force.data()
         );
@@ -209,7 +209,7 @@ Foam::scalar Foam::granularMechanicsModels::equilibrium::imbalance
 )
 {
     const nodeField now(at(du, 1));
-    broken_ = -1;
+    invalidCell_ = -1;
     if (!moved && !law_->elastic())
     {
         law_->present();
@@ -218,12 +218,12 @@ Foam::scalar Foam::granularMechanicsModels::equilibrium::imbalance
     {
         strain(du);
     }
-    if (broken_ < 0 && (moved || !placed_))
+    if (invalidCell_ < 0 && (moved || !placed_))
     {
-        broken_ = nodes_.findShapes(now, shapes_);
+        invalidCell_ = nodes_.findShapes(now, shapes_);
     }
     placed_ = !moved;
-    if (returnReduce(broken_ >= 0, orOp<bool>()))
+    if (returnReduce(invalidCell_ >= 0, orOp<bool>()))
     {
         norm_ = GREAT;
         return GREAT;
@@ -245,9 +245,9 @@ Foam::scalar Foam::granularMechanicsModels::equilibrium::imbalance
     walls_.addShells(mesh_.time().value(), nodeField(u_ + du), r_);
     if (share_ < 1)
     {
-        r_ -= (1 - share_)*outset_;
+        r_ -= (1 - share_)*initialResidual_;
     }
-    walls_.release(r_);
+    walls_.project(r_);
     return measure();
 }
 
@@ -443,7 +443,7 @@ bool Foam::granularMechanicsModels::equilibrium::giveWay
     {
         give = walls_.give(reference_, du, grains_.stepStrain());
         left = target + give - du;
-        walls_.restrict(left);
+        walls_.keepConstrained(left);
         if
         (
             gMax(mag(left))
@@ -498,7 +498,7 @@ bool Foam::granularMechanicsModels::equilibrium::leaveWalls
             return true;
         }
         nodeField left(target + give - du);
-        walls_.restrict(left);
+        walls_.keepConstrained(left);
         left_ = imbalance(du, moved);
         findTangent();
         follow(du, left);
@@ -531,7 +531,7 @@ bool Foam::granularMechanicsModels::equilibrium::advance(const label parts)
             2*enoughGiving*gMax(mag(give_))
         );
     }
-    granularState::memory before;
+    granularState::snapshot before;
     slide_ = walls_.slide(lastTime_, time);
     share_ = 1;
     notGiven_ = false;
@@ -545,15 +545,15 @@ bool Foam::granularMechanicsModels::equilibrium::advance(const label parts)
         {
             guess_ += (time - lastTime_)*(velocity_ - velocityBefore_);
         }
-        walls_.release(guess_);
+        walls_.project(guess_);
     }
     if (parts > 1)
     {
-        before = grains_.remember();
+        before = grains_.saveState();
         const nodeField slide(slide_);
         slide_ = 0;
         imbalance(slide_, false);
-        outset_ = r_;
+        initialResidual_ = r_;
         slide_ = slide/parts;
     }
     for (label part = 1; part <= parts; ++part)
@@ -562,7 +562,7 @@ bool Foam::granularMechanicsModels::equilibrium::advance(const label parts)
         const nodeField done(walls_.alongWalls(nodeField(u_ - u)));
         const nodeField target(share_*way - done + give_ - given);
         nodeField du(target), give(du.size(), Zero);
-        walls_.restrict(du);
+        walls_.keepConstrained(du);
         bool moved;
         if
         (

@@ -140,7 +140,7 @@ Foam::autoPtr<Foam::stressLaw> Foam::stressLaw::New
             new elasticLaw(dict.subDict("elasticCoeffs"), grains, mesh)
         );
     }
-    if (grains.model().spatial())
+    if (grains.model().isThreeDimensional())
     {
         return autoPtr<stressLaw>(new sphereLaw(properties, grains, mesh));
     }
@@ -212,7 +212,7 @@ Foam::grainLaw::grainLaw
             << exit(FatalIOError);
     }
     const label cells = mesh.mesh().nCells();
-    const bool spatial = grains.model().spatial();
+    const bool spatial = grains.model().isThreeDimensional();
     const label own = grains.model().components(), n = order_.size();
     places_.resize(own);
     forAll(places_, i)
@@ -397,7 +397,7 @@ void Foam::grainLaw::find(const bool tangent)
     {
         findStretch();
     }
-    grains_.tryStrain
+    grains_.evaluateTrial
     (
         strain_, found_, tangent ? derivatives_ : List<scalar*>()
     );
@@ -407,7 +407,7 @@ void Foam::grainLaw::find(const bool tangent)
 
 void Foam::grainLaw::addTangent()
 {
-    grains_.tryStrain(strain_, found_, derivatives_);
+    grains_.evaluateTrial(strain_, found_, derivatives_);
 }
 
 
@@ -441,7 +441,7 @@ void Foam::grainLaw::findTangent()
             column = 0;
         }
     }
-    grains_.tryStrain(strain_, found_, derivatives_);
+    grains_.evaluateTrial(strain_, found_, derivatives_);
 }
 
 

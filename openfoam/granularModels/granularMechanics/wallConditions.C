@@ -114,13 +114,13 @@ const Foam::keyTable Foam::wallConditions::keys
             "none", "pressure or piston"
         },
         {
-            "give",
+            "slackLayer",
             "additional depth of bed by which the grains at a smooth wall"
             " slip, see [below](#grains-that-give-way-at-a-wall)",
             "mean diameters", "0 to 1000", "0", "rigid or frictionless"
         },
         {
-            "giveBack",
+            "slackRecovery",
             "share of it that is recovered where the bed extends (the mean of"
             " beds of spheres between plates, which differ much)", "-",
             "0 to 1", "0.1", "rigid or frictionless"
@@ -178,7 +178,7 @@ Foam::wallConditions::wallConditions
         read(dict, model, patchi);
         wall& w = walls_[patchi];
         const bool keeps = w.type == kind::rigid || w.type == kind::frictionless;
-        if (keeps && w.give == 0)
+        if (keeps && w.slackLayer == 0)
         {
             w.stiffness = springs;
         }
@@ -498,7 +498,7 @@ void Foam::wallConditions::findHeld()
         )
     );
     across held(findAcross(holding_()));
-    held_.transfer(held.nodes);
+    constrainedNodes_.transfer(held.nodes);
     allDirections_.transfer(held.directions);
     allBasis_.transfer(held.basis);
     squares_.transfer(held.squares);
@@ -531,18 +531,18 @@ void Foam::wallConditions::findFloating() const
     rigidMotion motion(mesh_, regions, pieces);
     const label dim = mesh_.dim();
 
-    forAll(held_, i)
+    forAll(constrainedNodes_, i)
     {
         for (label k = 0; k < directions_[i]; ++k)
         {
-            motion.hold(held_[i], basis_.cdata() + dim*(dim*i + k));
+            motion.hold(constrainedNodes_[i], basis_.cdata() + dim*(dim*i + k));
         }
     }
-    forAll(rubbing_, i)
+    forAll(slipNodes_, i)
     {
-        for (label j = (dim - 1)*i; j < (dim - 1)*i + ways_[i]; ++j)
+        for (label j = (dim - 1)*i; j < (dim - 1)*i + nTangents_[i]; ++j)
         {
-            motion.hold(rubbing_[i], along_.cdata() + dim*j);
+            motion.hold(slipNodes_[i], tangents_.cdata() + dim*j);
         }
     }
     forAll(supports_, i)
@@ -566,12 +566,12 @@ void Foam::wallConditions::findFloating() const
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
-void Foam::wallConditions::loosen(scalarField& values) const
+void Foam::wallConditions::removeConstrained(scalarField& values) const
 {
     const label dim = mesh_.dim();
-    forAll(held_, i)
+    forAll(constrainedNodes_, i)
     {
-        scalar* v = values.data() + dim*held_[i];
+        scalar* v = values.data() + dim*constrainedNodes_[i];
         for (label k = 0; k < directions_[i]; ++k)
         {
             const scalar* e = basis_.cdata() + dim*dim*i + dim*k;
@@ -589,17 +589,17 @@ void Foam::wallConditions::loosen(scalarField& values) const
 }
 
 
-void Foam::wallConditions::release(scalarField& values) const
+void Foam::wallConditions::project(scalarField& values) const
 {
-    loosen(values);
-    join(values);
+    removeConstrained(values);
+    tie(values);
 }
 
 
-void Foam::wallConditions::restrict(scalarField& values) const
+void Foam::wallConditions::keepConstrained(scalarField& values) const
 {
     scalarField free(values);
-    loosen(free);
+    removeConstrained(free);
     values -= free;
 }
 

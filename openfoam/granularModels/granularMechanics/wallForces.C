@@ -54,9 +54,9 @@ Foam::scalarField Foam::wallConditions::mean(scalarField& sum) const
     const label dim = mesh_.dim();
     scalarField result(sum.size(), Zero);
     mesh_.sum(sum);
-    forAll(held_, i)
+    forAll(constrainedNodes_, i)
     {
-        const label node = held_[i];
+        const label node = constrainedNodes_[i];
         for (label k = 0; k < allDirections_[i]; ++k)
         {
             const scalar* e = allBasis_.cdata() + dim*dim*i + dim*k;
@@ -130,7 +130,7 @@ void Foam::wallConditions::addStick
 ) const
 {
     const label dim = mesh_.dim();
-    eachStick([&](const label node, const scalar* t, const scalar k)
+    forEachTangentialStiffness([&](const label node, const scalar* t, const scalar k)
     {
         scalar along = 0;
         for (label j = 0; j < dim; ++j)

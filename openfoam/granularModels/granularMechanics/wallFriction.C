@@ -79,16 +79,16 @@ void Foam::wallConditions::findRubbing()
         half.append(slip[node]/count[node]);
         number.append(count[node]);
     }
-    rubbing_ = rubbing;
-    ways_ = ways;
-    along_ = scalarField(along);
+    slipNodes_ = rubbing;
+    nTangents_ = ways;
+    tangents_ = scalarField(along);
     slip_ = scalarField(half);
     faces_ = scalarField(number);
-    limit_.resize(rubbing_.size(), Zero);
+    limit_.resize(slipNodes_.size(), Zero);
     length_ = limit_;
-    principal_ = along_;
-    stiffness_.resize((dim - 1)*rubbing_.size(), Zero);
-    grip_.resize(dim*rubbing_.size(), Zero);
+    principal_ = tangents_;
+    stiffness_.resize((dim - 1)*slipNodes_.size(), Zero);
+    normalCoupling_.resize(dim*slipNodes_.size(), Zero);
 }
 
 
@@ -103,19 +103,19 @@ void Foam::wallConditions::sumRubbing
         return;
     }
     scalarField all(each*mesh_.size(), Zero);
-    forAll(rubbing_, i)
+    forAll(slipNodes_, i)
     {
         for (label k = 0; k < each; ++k)
         {
-            all[each*rubbing_[i] + k] = values[each*i + k];
+            all[each*slipNodes_[i] + k] = values[each*i + k];
         }
     }
     mesh_.sum(all, each);
-    forAll(rubbing_, i)
+    forAll(slipNodes_, i)
     {
         for (label k = 0; k < each; ++k)
         {
-            values[each*i + k] = all[each*rubbing_[i] + k];
+            values[each*i + k] = all[each*slipNodes_[i] + k];
         }
     }
 }
@@ -202,8 +202,8 @@ void Foam::wallConditions::rubOneWay
     scalar* share
 )
 {
-    const label dim = mesh_.dim(), node = rubbing_[i];
-    const scalar* t = along_.cdata() + dim*(dim - 1)*i;
+    const label dim = mesh_.dim(), node = slipNodes_[i];
+    const scalar* t = tangents_.cdata() + dim*(dim - 1)*i;
     const scalar before =
         -component(oldTraction, node, t)*length_[i]/limit_[i];
     const coulombFriction::line m
@@ -215,7 +215,7 @@ void Foam::wallConditions::rubOneWay
     for (label k = 0; k < dim; ++k)
     {
         share[k] = m.share*t[k];
-        grip_[dim*i + k] = grip*t[k];
+        normalCoupling_[dim*i + k] = grip*t[k];
     }
     stiffness_[(dim - 1)*i] = m.slope*limit_[i]/slip_[i];
 }
@@ -229,8 +229,8 @@ void Foam::wallConditions::rubTwoWays
     scalar* share
 )
 {
-    const label node = rubbing_[i];
-    const scalar* t = along_.cdata() + 6*i;
+    const label node = slipNodes_[i];
+    const scalar* t = tangents_.cdata() + 6*i;
     const vector a(t[0], t[1], t[2]), b(t[3], t[4], t[5]);
     const auto within = [&](const scalarField& values)
     {
@@ -249,7 +249,7 @@ void Foam::wallConditions::rubTwoWays
     for (label k = 0; k < 3; ++k)
     {
         share[k] = m.share[k];
-        grip_[3*i + k] = m.memory[k] - m.share[k];
+        normalCoupling_[3*i + k] = m.memory[k] - m.share[k];
         principal_[6*i + k] = ahead[k];
         principal_[6*i + 3 + k] = beside[k];
     }
@@ -272,7 +272,7 @@ Foam::scalarField Foam::wallConditions::slide
 {
     const label dim = mesh_.dim();
     scalarField result(dim*mesh_.size(), Zero);
-    scalarField motion((dim - 1)*rubbing_.size(), Zero);
+    scalarField motion((dim - 1)*slipNodes_.size(), Zero);
     bool moving = false;
     forAll(walls_, patchi)
     {
@@ -287,12 +287,12 @@ Foam::scalarField Foam::wallConditions::slide
             for (const label node : mesh_.wall(patchi).nodes)
             {
                 const label i = rubs_[node];
-                for (label j = 0; i >= 0 && j < ways_[i]; ++j)
+                for (label j = 0; i >= 0 && j < nTangents_[i]; ++j)
                 {
                     const label way = (dim - 1)*i + j;
                     for (label k = 0; k < dim; ++k)
                     {
-                        motion[way] += along_[dim*way + k]*d[k];
+                        motion[way] += tangents_[dim*way + k]*d[k];
                     }
                 }
             }
@@ -301,14 +301,14 @@ Foam::scalarField Foam::wallConditions::slide
     if (moving)
     {
         sumRubbing(motion, dim - 1);
-        forAll(rubbing_, i)
+        forAll(slipNodes_, i)
         {
-            for (label way = (dim - 1)*i; way < (dim - 1)*i + ways_[i]; ++way)
+            for (label way = (dim - 1)*i; way < (dim - 1)*i + nTangents_[i]; ++way)
             {
                 for (label k = 0; k < dim; ++k)
                 {
-                    result[dim*rubbing_[i] + k] +=
-                        motion[way]/faces_[i]*along_[dim*way + k];
+                    result[dim*slipNodes_[i] + k] +=
+                        motion[way]/faces_[i]*tangents_[dim*way + k];
                 }
             }
         }
@@ -330,20 +330,20 @@ void Foam::wallConditions::friction
     findLimits(stress, at);
     force = 0;
     traction = 0;
-    principal_ = along_;
+    principal_ = tangents_;
     stiffness_ = 0;
     returns_.clear();
-    grip_ = 0;
+    normalCoupling_ = 0;
     const label dim = mesh_.dim();
 
-    forAll(rubbing_, i)
+    forAll(slipNodes_, i)
     {
         if (limit_[i] <= VSMALL)
         {
             continue;
         }
         scalar share[3];
-        if (ways_[i] == 1)
+        if (nTangents_[i] == 1)
         {
             rubOneWay(i, slip, oldTraction, share);
         }
@@ -353,7 +353,7 @@ void Foam::wallConditions::friction
         }
         for (label k = 0; k < dim; ++k)
         {
-            const label to = dim*rubbing_[i] + k;
+            const label to = dim*slipNodes_[i] + k;
             force[to] = -share[k]*limit_[i];
             traction[to] = force[to]/length_[i];
         }
@@ -364,7 +364,7 @@ void Foam::wallConditions::friction
 void Foam::wallConditions::setStiffness(const scalar pressure)
 {
     const label dim = mesh_.dim();
-    principal_ = along_;
+    principal_ = tangents_;
     stiffness_ = 0;
     scalarField weights;
     forAll(walls_, patchi)
@@ -386,7 +386,7 @@ void Foam::wallConditions::setStiffness(const scalar pressure)
                     square += sqr(weights[dim*a + k]);
                 }
                 const label index = rubs_[nodes[a]];
-                for (label j = 0; index >= 0 && j < ways_[index]; ++j)
+                for (label j = 0; index >= 0 && j < nTangents_[index]; ++j)
                 {
                     stiffness_[(dim - 1)*index + j] +=
                         w.friction*pressure/w.slip*std::sqrt(square);

@@ -24,8 +24,8 @@ void Foam::wallConditions::readGive
     wall& w
 ) const
 {
-    w.give = 2*radius_*keys.number(dict, "give");
-    w.giveBack = keys.number(dict, "giveBack");
+    w.slackLayer = 2*radius_*keys.number(dict, "slackLayer");
+    w.slackRecovery = keys.number(dict, "slackRecovery");
 }
 
 
@@ -35,7 +35,7 @@ bool Foam::wallConditions::gives() const
 {
     for (const wall& w : walls_)
     {
-        if (w.give > 0)
+        if (w.slackLayer > 0)
         {
             return true;
         }
@@ -58,7 +58,7 @@ Foam::scalarField Foam::wallConditions::give
         const wall& w = walls_[patchi];
         const elementMesh::wallFaces& faces = mesh_.wall(patchi);
         scalarField ways(faces.size(), Zero);
-        for (label i = 0; w.give > 0 && i < faces.size(); ++i)
+        for (label i = 0; w.slackLayer > 0 && i < faces.size(); ++i)
         {
             const label celli = faces.cells[i];
             const scalar* n = normals_[patchi].cdata() + dim*i;
@@ -82,9 +82,9 @@ Foam::scalarField Foam::wallConditions::give
             }
 
             // Grains that are pressed let the bed end farther out
-            ways[i] = -strain*w.give*(strain < 0 ? 1 : w.giveBack);
+            ways[i] = -strain*w.slackLayer*(strain < 0 ? 1 : w.slackRecovery);
         }
-        if (w.give > 0)
+        if (w.slackLayer > 0)
         {
             holding_->each
             (

@@ -39,9 +39,9 @@ void Foam::wallConditions::findPushing()
     pushes_.resize(allBasis_.size()/dim, Zero);
     left_.resize(pushes_.size(), false);
     labelList index(mesh_.size(), -1);
-    forAll(held_, i)
+    forAll(constrainedNodes_, i)
     {
-        index[held_[i]] = i;
+        index[constrainedNodes_[i]] = i;
     }
     // Exactly one unit normal along the direction: no plane of symmetry, no
     // axis, no opposite wall
@@ -73,9 +73,9 @@ void Foam::wallConditions::findPushing()
 void Foam::wallConditions::holdOthers()
 {
     const label dim = mesh_.dim();
-    directions_.resize(held_.size());
+    directions_.resize(constrainedNodes_.size());
     basis_.resize(allBasis_.size());
-    forAll(held_, i)
+    forAll(constrainedNodes_, i)
     {
         label to = 0;
         for (const bool held : {true, false})
@@ -103,15 +103,15 @@ Foam::scalarField Foam::wallConditions::alongWalls(const scalarField& values) co
 {
     const label dim = mesh_.dim();
     scalarField result(values.size(), Zero);
-    forAll(held_, i)
+    forAll(constrainedNodes_, i)
     {
         for (label k = 0; k < allDirections_[i]; ++k)
         {
             const scalar* e = allBasis_.cdata() + dim*(dim*i + k);
-            const scalar along = component(values, held_[i], e);
+            const scalar along = component(values, constrainedNodes_[i], e);
             for (label j = 0; j < dim; ++j)
             {
-                result[dim*held_[i] + j] += along*e[j];
+                result[dim*constrainedNodes_[i] + j] += along*e[j];
             }
         }
     }
@@ -132,7 +132,7 @@ void Foam::wallConditions::setLeft
         const scalar* e = allBasis_.cdata() + dim*i;
         left_[i] =
             pushes_[i]
-         && pushes_[i]*component(way, held_[i/dim], e) > least;
+         && pushes_[i]*component(way, constrainedNodes_[i/dim], e) > least;
     }
     holdOthers();
 }
@@ -151,7 +151,7 @@ Foam::label Foam::wallConditions::leave
     forAll(pushes_, i)
     {
         const scalar* e = allBasis_.cdata() + dim*i;
-        const label node = held_[i/dim];
+        const label node = constrainedNodes_[i/dim];
         const scalar outward =
             pushes_[i]*component(left_[i] ? way : force, node, e);
         const scalar most = left_[i] ? apart*radius_ : least[node];
@@ -161,7 +161,7 @@ Foam::label Foam::wallConditions::leave
     label count = 0;
     forAll(pushes_, i)
     {
-        if (changes[dim*held_[i/dim] + i % dim] > 0)
+        if (changes[dim*constrainedNodes_[i/dim] + i % dim] > 0)
         {
             left_[i] = !left_[i];
             ++count;
@@ -183,7 +183,7 @@ Foam::scalar Foam::wallConditions::largestGap(const scalarField& way) const
     forAll(left_, i)
     {
         const scalar* e = allBasis_.cdata() + dim*i;
-        const scalar gap = pushes_[i]*component(way, held_[i/dim], e);
+        const scalar gap = pushes_[i]*component(way, constrainedNodes_[i/dim], e);
         largest = left_[i] ? max(largest, gap) : largest;
     }
     return returnReduce(largest, maxOp<scalar>());

@@ -91,9 +91,9 @@ void Foam::wallConditions::findPistons()
         one.count = returnReduce(scalar(owned.size()), sumOp<scalar>());
 
         // Walls beside it, and other pistons, must let it move
-        forAll(held_, i)
+        forAll(constrainedNodes_, i)
         {
-            for (label j = 0; on[held_[i]] > 0 && j < directions_[i]; ++j)
+            for (label j = 0; on[constrainedNodes_[i]] > 0 && j < directions_[i]; ++j)
             {
                 scalar along = 0;
                 for (label k = 0; k < dim; ++k)
@@ -136,7 +136,7 @@ void Foam::wallConditions::findPistons()
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
-void Foam::wallConditions::join(scalarField& values) const
+void Foam::wallConditions::tie(scalarField& values) const
 {
     const label dim = mesh_.dim();
     for (const piston& one : pistons_)

@@ -139,7 +139,7 @@ const Foam::keyTable Foam::granularProperties::surrogateKeys
             "0 to 0.01", "0; of `onlineRve` with `rvePer cell` 1e-4"
         },
         {
-            "outOfRegion",
+            "outOfTrainingRange",
             "what is done with cells outside the states that the model was"
             " trained for", "-", "a dictionary", "empty"
         },
@@ -152,6 +152,51 @@ const Foam::keyTable Foam::granularProperties::surrogateKeys
         {"conductivity", "the same", "-", "as there", "as there"}
     }
 );
+
+
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+
+//- Former names of keys, which are still read, and their names since version 0.3
+static const char* const renamedKeys[][2] =
+{
+    {"give", "slackLayer"},
+    {"giveBack", "slackRecovery"},
+    {"outOfRegion", "outOfTrainingRange"}
+};
+
+
+//- Rename former keys in a dictionary and its sub-dictionaries, and say so
+static void renameFormer(dictionary& dict)
+{
+    for (const auto& names : renamedKeys)
+    {
+        if (dict.found(names[0], keyType::LITERAL))
+        {
+            Info<< "Renamed since version 0.3: entry '" << names[0]
+                << "' in " << dict.name() << " is '" << names[1] << "' now"
+                << nl;
+            autoPtr<entry> renamed
+            (
+                dict.lookupEntry(names[0], keyType::LITERAL).clone(dict)
+            );
+            renamed->keyword() = names[1];
+            dict.remove(names[0]);
+            dict.add(renamed.ptr());
+        }
+    }
+    for (const entry& each : static_cast<const dictionary&>(dict))
+    {
+        if (each.isDict())
+        {
+            renameFormer(const_cast<dictionary&>(each.dict()));
+        }
+    }
+}
+
+} // End namespace Foam
 
 
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
@@ -170,7 +215,7 @@ Foam::granularProperties::granularProperties(const objectRegistry& registry)
         )
     ),
     // Before a mistyped key is missed
-    density_((grainKeys.check(*this), quantity("density", dimDensity))),
+    density_((renameFormer(*this), grainKeys.check(*this), quantity("density", dimDensity))),
     youngModulus_(quantity("youngModulus", dimPressure)),
     thermalConductivity_
     (

@@ -107,7 +107,7 @@ void Foam::granularState::answer
     query.stressXX = sigma[0].data();
     query.stressYY = sigma[1].data();
     query.stressXY = K.xy.empty() ? nullptr : sigma[shearColumn()].data();
-    if (model_->spatial())
+    if (model_->isThreeDimensional())
     {
         query.conductivityZZ = K.zz.data();
         query.conductivityXZ = K.xz.data();
@@ -137,10 +137,10 @@ Foam::label Foam::granularState::ask
     query.totalStrain = total_.cdata();
     answer(query, askedK_, askedSigma_);
     query.temperature =
-        model_->spatial() ? askedTemperature_.cdata() : nullptr;
+        model_->isThreeDimensional() ? askedTemperature_.cdata() : nullptr;
     query.outside = wantOutside ? outside_.pointers.cdata() : nullptr;
     query.trial = trial;
-    if (!trial && !model_->tellColumns())
+    if (!trial && !model_->reportsDistances())
     {
         outsideRow_.resize(rows_.size());
         query.outsideRow = outsideRow_.data();
@@ -165,7 +165,7 @@ bool Foam::granularState::judge
         // Cells that were not asked are where they were
         forAll(rows_, row)
         {
-            inRegion_[rows_[row]] = 1;
+            inTrainingRange_[rows_[row]] = 1;
         }
         outsideSeen_ = outsideSeen_ || any;
     }
@@ -173,11 +173,11 @@ bool Foam::granularState::judge
     {
         return false;
     }
-    if (!model_->tellColumns())
+    if (!model_->reportsDistances())
     {
         forAll(rows_, row)
         {
-            inRegion_[rows_[row]] = !outsideRow_[row];
+            inTrainingRange_[rows_[row]] = !outsideRow_[row];
         }
         policy_.judgeRows(outside, when);
         return false;
@@ -193,7 +193,7 @@ bool Foam::granularState::judge
         {
             if (distance[row] != 0)
             {
-                inRegion_[rows_[row]] = 0;
+                inTrainingRange_[rows_[row]] = 0;
             }
         }
     }
@@ -296,14 +296,14 @@ void Foam::granularState::commitStrain()
 }
 
 
-void Foam::granularState::holdStrain()
+void Foam::granularState::markIncrement()
 {
     heldIncrement_ = thermalStrainIncrement_.primitiveField();
     heldStrain_ = thermalStrain_.primitiveField();
 }
 
 
-void Foam::granularState::strainAnew
+void Foam::granularState::restartIncrement
 (
     const scalarField& from,
     const scalarField& to
@@ -399,9 +399,9 @@ void Foam::granularState::commit()
 }
 
 
-Foam::granularState::memory Foam::granularState::remember() const
+Foam::granularState::snapshot Foam::granularState::saveState() const
 {
-    memory now;
+    snapshot now;
     now.state.resize(state_.size());
     forAll(state_, i)
     {
@@ -431,7 +431,7 @@ Foam::granularState::memory Foam::granularState::remember() const
 }
 
 
-void Foam::granularState::restore(const memory& before)
+void Foam::granularState::restore(const snapshot& before)
 {
     forAll(state_, i)
     {

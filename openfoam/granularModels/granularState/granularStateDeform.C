@@ -30,7 +30,7 @@ Foam::granularState::presentStress() const
 }
 
 
-void Foam::granularState::letDeform(const scalarField& strength)
+void Foam::granularState::enableDeformation(const scalarField& strength)
 {
     const label cells = mesh_.nCells();
     const label column = model_->stateNames().find("strength");
@@ -52,7 +52,7 @@ void Foam::granularState::letDeform(const scalarField& strength)
 }
 
 
-void Foam::granularState::tryStrain
+void Foam::granularState::evaluateTrial
 (
     const strainColumns& strain,
     stressColumns& stress,
@@ -79,7 +79,7 @@ void Foam::granularState::tryStrain
     query.totalStrain = thermalStrain_.primitiveField().cdata();
     query.cellStrain = strained.cdata();
     query.rotation = turned.cdata();
-    query.temperature = model_->spatial() ? temperature_.cdata() : nullptr;
+    query.temperature = model_->isThreeDimensional() ? temperature_.cdata() : nullptr;
     answer(query, deformedK_, deformedSigma_);
     if (model_->conductsApart())
     {
@@ -101,7 +101,7 @@ void Foam::granularState::tryStrain
 }
 
 
-void Foam::granularState::acceptStrain()
+void Foam::granularState::commitTrial()
 {
     originStrain_ = 0;
     if (model_->conductsApart())

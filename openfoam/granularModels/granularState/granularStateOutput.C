@@ -29,7 +29,7 @@ void Foam::granularState::findReaders()
     // function objects of this project call refresh() themselves
     const wordHashSet following
     ({
-        "conductivity", "stress", "pressure", "particleDensity", "inRegion",
+        "conductivity", "stress", "pressure", "particleDensity", "inTrainingRange",
         "spread", "thermalStrain", "D", "nodeDisplacement", "nodeVelocity",
         "nodeVelocityBefore", "wallTraction", "wallGive", "areaRatio"
     });
@@ -82,7 +82,7 @@ void Foam::granularState::findReaders()
 
 Foam::tmp<Foam::scalarField> Foam::granularState::presentPressure() const
 {
-    const bool spatial = model_->spatial();
+    const bool spatial = model_->isThreeDimensional();
     tmp<scalarField> result(new scalarField(mesh_.nCells()));
     scalarField& p = result.ref();
     forAll(p, celli)
@@ -136,7 +136,7 @@ void Foam::granularState::see(const volScalarField& T, const scalar source)
     }
     course.see(runCourse::source, 0, source);
     const runCourse::range& now = course.own(runCourse::temperature);
-    if (model_->spatial() && !now.empty())
+    if (model_->isThreeDimensional() && !now.empty())
     {
         for (const scalar value : {now.least, now.most})
         {
@@ -210,7 +210,7 @@ void Foam::granularState::refresh()
     stress_.correctBoundaryConditions();
     pressure_.correctBoundaryConditions();
     particleDensity_.correctBoundaryConditions();
-    inRegion_.correctBoundaryConditions();
+    inTrainingRange_.correctBoundaryConditions();
 }
 
 
@@ -240,7 +240,7 @@ Foam::string Foam::granularState::describe(const label celli) const
     {
         text<< state_[i].name() << ' ' << state_[i][celli] << ", ";
     }
-    text<< "stress (" << (model_->spatial() ? "xx yy zz xy xz yz" : "xx yy xy")
+    text<< "stress (" << (model_->isThreeDimensional() ? "xx yy zz xy xz yz" : "xx yy xy")
         << ", tension positive)";
     for (const scalarField& column : sigma_)
     {
@@ -317,7 +317,7 @@ void Foam::granularState::writeReport() const
 Foam::label Foam::granularState::cellsOutside() const
 {
     label outside = 0;
-    for (const scalar inside : inRegion_.primitiveField())
+    for (const scalar inside : inTrainingRange_.primitiveField())
     {
         outside += inside < 0.5;
     }

@@ -123,7 +123,7 @@ Foam::dictionary Foam::granularState::settings() const
             wordHashSet
             ({
                 "type", "model", "library", "hash", "smallestStrain",
-                "outOfRegion"
+                "outOfTrainingRange"
             })
         )
     );

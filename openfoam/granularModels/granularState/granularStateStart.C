@@ -199,9 +199,9 @@ Foam::granularState::granularState
         dimensionedScalar(dimDensity, Zero),
         extrapolatedCalculatedFvPatchScalarField::typeName
     ),
-    inRegion_
+    inTrainingRange_
     (
-        io("inRegion"),
+        io("inTrainingRange"),
         mesh_,
         dimensionedScalar(dimless, Zero),
         extrapolatedCalculatedFvPatchScalarField::typeName
@@ -232,7 +232,7 @@ Foam::granularState::granularState
     thermalStrain_.primitiveFieldRef() =
         properties_.thermalExpansion().value()
        *(temperature_ - initialTemperature_.primitiveField());
-    inRegion_.primitiveFieldRef() = 1;
+    inTrainingRange_.primitiveFieldRef() = 1;
 
     readState();
     allocate();
@@ -366,7 +366,7 @@ void Foam::granularState::readState()
                 xy = -stress().component(symmTensor::XY);
                 known.stressXY = xy.cdata();
             }
-            if (model_->spatial())
+            if (model_->isThreeDimensional())
             {
                 zz = -stress().component(symmTensor::ZZ);
                 xz = -stress().component(symmTensor::XZ);
@@ -401,7 +401,7 @@ void Foam::granularState::readState()
         if
         (
             mesh_.time().timeIndex() == 0 && !stress.valid()
-         && model_->looseness(loosest, unjammed)
+         && model_->porosityRange(loosest, unjammed)
         )
         {
             policy_.judgeStart
@@ -441,7 +441,7 @@ void Foam::granularState::allocate()
         K->xy.resize(model_->diagonal() ? 0 : cells, Zero);
         for (scalarField* column : {&K->zz, &K->xz, &K->yz})
         {
-            column->resize(model_->spatial() ? cells : 0, Zero);
+            column->resize(model_->isThreeDimensional() ? cells : 0, Zero);
         }
     }
     for
@@ -664,7 +664,7 @@ void Foam::granularState::askStart()
     // This query is without strain. After a restart, strain accumulated in
     // thermalStrainIncrement is left for the first step, and the total strain
     // given here already contains it
-    const memory before(remember());
+    const snapshot before(saveState());
     commit();
     thermalStrainIncrement_.primitiveFieldRef() = before.increment;
 

@@ -44,7 +44,7 @@ static const FixedList<word, 2> sides({"below", "above"});
 
 static const keyTable policyKeys
 (
-    "outOfRegion",
+    "outOfTrainingRange",
     {
         {
             "maxFraction",
@@ -80,7 +80,7 @@ static const keyTable policyKeys
 
 static const keyTable sideKeys
 (
-    "sides of outOfRegion",
+    "sides of outOfTrainingRange",
     {
         {
             "below", "action where the value is below the region", "-",
@@ -108,7 +108,7 @@ Foam::regionPolicy::regionPolicy
 )
 :
     mesh_(mesh),
-    dict_(properties.outOfRegionDict()),
+    dict_(properties.outOfTrainingRangeDict()),
     hash_(modelHash),
     names_(stateNames),
     columns_(columnNames),
@@ -193,7 +193,7 @@ void Foam::regionPolicy::act
             << when.c_str() << ' ' << cells << " cells have " << name << ' '
             << sides[side] << " the region of the model, by up to " << farthest
             << ". Entry '" << name << "/" << sides[side]
-            << "' of outOfRegion in constant/granularProperties is error, "
+            << "' of outOfTrainingRange in constant/granularProperties is error, "
             << "allowed: "
             << granularProperties::listed(actionNames.sortedToc()).c_str()
             << ". The cells are in " << path(mesh_)
@@ -230,7 +230,7 @@ void Foam::regionPolicy::judgeShare
     FatalIOErrorInFunction(dict_)
         << when.c_str() << ' ' << cells << " of " << cells_.size()
         << " cells are outside the region of the model. Entry 'maxFraction'"
-        << " of outOfRegion in constant/granularProperties is "
+        << " of outOfTrainingRange in constant/granularProperties is "
         << maxFraction_ << ", allowed: 0 to 1."
         << (isFile(list) ? " The cells are in " + list : string())
         << exit(FatalIOError);
@@ -280,7 +280,7 @@ void Foam::regionPolicy::judgeStart
             << ", allowed: at most " << unjammed << ", beyond which no grains"
             << " touch: the model would answer as for packings of about "
             << loosest << ", which conduct and bear a load. To run anyway, give"
-            << " porosity { above clamp; } in outOfRegion of"
+            << " porosity { above clamp; } in outOfTrainingRange of"
             << " constant/granularProperties" << exit(FatalIOError);
     }
     Warning
@@ -394,7 +394,7 @@ void Foam::regionPolicy::refuseCut()
     accept();
     write();
     FatalIOErrorInFunction(dict_)
-        << "Cells are outside the region of the model where outOfRegion in"
+        << "Cells are outside the region of the model where outOfTrainingRange in"
         << " constant/granularProperties says cutStep, but the time step of "
         << mesh_.time().deltaTValue() << " s cannot be cut: it is fixed or at minDeltaT, or the state at the"
         << " start is outside. The cells are in "

@@ -65,7 +65,7 @@ static const keyTable ownFields
             " move", "kg/m3", "> 0", "out"
         },
         {
-            "inRegion", "1 where the model was trained for the state, else 0",
+            "inTrainingRange", "1 where the model was trained for the state, else 0",
             "-", "0, 1", "out"
         },
         {
@@ -116,7 +116,7 @@ static const keyTable ownFields
         },
         {
             "wallGive",
-            "slip of the grains at walls with the key `give`, along the outward"
+            "slip of the grains at walls with the key `slackLayer`, along the outward"
             " normal", "m", "any", "restart, out"
         },
         {

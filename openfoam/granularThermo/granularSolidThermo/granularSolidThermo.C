@@ -158,7 +158,7 @@ Foam::granularSolidThermo::granularSolidThermo
     grains_.warm(T_, []() {});
     setEnergy();
     setGradients();
-    grains_.holdStrain();
+    grains_.markIncrement();
     setConductivity();
     grains_.record().writeRegion();
 }
@@ -385,7 +385,7 @@ void Foam::granularSolidThermo::begin() const
         self.grains_.policy().refuseCut();
     }
     self.grains_.commit();
-    self.grains_.holdStrain();
+    self.grains_.markIncrement();
     self.setConductivity();
 }
 
@@ -413,7 +413,7 @@ void Foam::granularSolidThermo::correct()
     setEnergy();
 
     // Step 5, anew after each solution in a step
-    grains_.strainAnew(startT_, T_.primitiveField());
+    grains_.restartIncrement(startT_, T_.primitiveField());
     grains_.finishStep();
 }
 

@@ -396,7 +396,7 @@ void Foam::neighbourSolids::report()
 }
 
 
-Foam::string Foam::neighbourSolids::doubt()
+Foam::string Foam::neighbourSolids::warning()
 {
     if (empty())
     {
@@ -416,7 +416,7 @@ Foam::string Foam::neighbourSolids::doubt()
     text.precision(3);
     if (difference > runRecord::muchHeat)
     {
-        text<< "Doubt: heat is lost or made at the walls " << walls.c_str()
+        text<< "Warning: heat is lost or made at the walls " << walls.c_str()
             << ": what these solids received, gave to the bed and hold differs"
             << " by " << difference << " of these amounts, expected: below "
             << runRecord::muchHeat << ". Where the faces on both sides of a"
@@ -424,7 +424,7 @@ Foam::string Foam::neighbourSolids::doubt()
     }
     if (unconverged_)
     {
-        text<< "Doubt: in " << unconverged_ << " of " << stages_
+        text<< "Warning: in " << unconverged_ << " of " << stages_
             << " stages the temperatures at the walls " << walls.c_str()
             << " had not converged after " << mostSolutions << " solutions.";
     }

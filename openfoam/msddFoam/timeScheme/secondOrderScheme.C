@@ -419,7 +419,7 @@ bool Foam::timeSchemes::secondOrder::settle
         advanceTime();
         return mechanics_.solve(true);
     }
-    const granularState::memory before(grains_.remember());
+    const granularState::snapshot before(grains_.saveState());
     grains_.commitStrain();
     grains_.commit();
 

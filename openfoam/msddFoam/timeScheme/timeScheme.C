@@ -260,7 +260,7 @@ void Foam::timeScheme::report() const
             << ", largest " << gMax(values) << unit << nl;
     };
     const granularState::conductivityColumns& K = grains_.conductivityOfCells();
-    const bool spatial = K.zz.size() || grains_.model().spatial();
+    const bool spatial = K.zz.size() || grains_.model().isThreeDimensional();
     line("T", T_.primitiveField(), " K");
     line("p", grains_.presentPressure()(), " Pa");
     line

@@ -4,8 +4,8 @@
 //! floor and surface; it is left out by `packings --pressed SPHERES SEEDS`. `packings --dump FILE FRICTION SEED` prints the row of a box
 //! that LAMMPS has packed (scripts/compare-packings).
 
+use msdd_beds::conductances::{Link, contact_links, gas_links};
 use msdd_beds::conductivity::{conductivity, mean};
-use msdd_beds::links::{Link, contact_links, gas_links};
 use msdd_beds::pour::{Container, Pouring, pour};
 use msdd_beds::profile::{Width, solid_fraction};
 use msdd_beds::solid::Solid;

@@ -3,9 +3,9 @@
 //! Packings with four frictions; h/R as touching spheres of k_s/k_g = 2 to 60 have it without a jump of temperature, and larger. Beside it
 //! the closed form of [`msdd_beds::effective::pairs`], and the largest error of that.
 
+use msdd_beds::conductances::gas_links;
 use msdd_beds::conductivity::{conductivity, mean};
 use msdd_beds::effective::pairs;
-use msdd_beds::links::gas_links;
 use msdd_beds::{Packing, pack};
 use msdd_spheres::{Material, Stiffness};
 

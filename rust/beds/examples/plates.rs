@@ -7,16 +7,16 @@
 //! diameters farther, which cuts them: spheres that it cuts have its temperature, and those farther are left out. The heat through
 //! this slab by the network of all conductances that walks find, over that of the network that `msdd bed run` makes.
 
-use msdd_beds::facing::facing;
 use msdd_beds::gas::plate_conductance;
 use msdd_beds::named_gases::GasName;
 use msdd_beds::network::{Materials, Network, Plate, PlateLaw};
+use msdd_beds::plate_view_areas::facing;
 use msdd_beds::pour::{Container, Pouring, pour};
 use msdd_beds::press::press;
 use msdd_beds::property::Property;
 use msdd_beds::scatter::Random;
 use msdd_beds::voxels::Ball;
-use msdd_beds::walks::Room;
+use msdd_beds::walk_on_spheres::Room;
 use msdd_spheres::{Boundary, Cell, Material, Simulation, Sphere, Stiffness, Wall};
 use std::error::Error;
 

@@ -122,7 +122,7 @@ pub fn prepare(
 /// A bed that still moves is not heated.
 fn rested(stage: &'static str, rest: Rest) -> Result<Rest, BedError> {
     let Rest { at_rest, kinetic, time, .. } = rest;
-    if at_rest { Ok(rest) } else { Err(BedError::Restless { stage, time, kinetic }) }
+    if at_rest { Ok(rest) } else { Err(BedError::NotSettled { stage, time, kinetic }) }
 }
 
 /// Area of the bed parallel to a flat wall \[m²\].
@@ -242,7 +242,7 @@ impl Bed {
         let Surface::Flat { normal } = wall.surface else { return Err(BedError::NotFlat) };
         let touches = |sphere: &Sphere| wall.distance(sphere.position) < 2.0 * sphere.radius;
         if !self.simulation.spheres.iter().any(touches) {
-            return Err(BedError::Apart { wall: case.plate.wall.clone() });
+            return Err(BedError::WallNotTouching { wall: case.plate.wall.clone() });
         }
         let probe = |&distance: &f64| {
             Probe::new(&self.simulation, &wall, normal, distance)

@@ -1,6 +1,6 @@
 //! The description of a bed that was measured: a TOML file that says what is poured, how it is handled, what heats it.
 
-use crate::effective::{GOOD, LEAST_RATIO, closure_error};
+use crate::effective::{GOOD, MIN_RATIO, closure_error};
 use crate::exchange::{Emissivities, Exchange, OutOfRange, RADIATING, Tracing, exchange};
 use crate::named_gases::GasName;
 use crate::pour::{Container, Pouring, WIDEST};
@@ -64,7 +64,7 @@ pub struct Grains {
     /// Ratio of the speeds after and before a collision. Allowed: `RESTITUTIONS`.
     pub restitution: f64,
     /// Thermal conductivity: a number, or a table of pairs of temperature and value, straight in between, which covers all
-    /// temperatures of the run [W/(m K)]. Allowed: `LEAST_RATIO` or more times the conductivity of the gas at all temperatures of the
+    /// temperatures of the run [W/(m K)]. Allowed: `MIN_RATIO` or more times the conductivity of the gas at all temperatures of the
     /// run; below `GOOD` times, a closure for poor conductors is used, and the run says so.
     pub conductivity: Property,
     /// Specific heat capacity: a number or a table, as the conductivity [J/(kg K)]. Allowed: `VALUES`.
@@ -81,7 +81,7 @@ pub struct Grains {
     pub emissivity: Option<Property>,
     /// Rays from each grain. Allowed: `RAYS`; below `FEW_RAYS` the run says what noise they leave. Default: 1000.
     pub rays: Option<usize>,
-    /// Linear coefficient of thermal expansion, in `elements.toml` alone [1/K]. Allowed: `EXPANSIONS`. Default: spheres keep their
+    /// Linear coefficient of thermal expansion, in `dem.toml` alone [1/K]. Allowed: `EXPANSIONS`. Default: spheres keep their
     /// size.
     pub thermal_expansion: Option<f64>,
 }
@@ -96,12 +96,12 @@ pub struct Vessel {
     /// An upright cylinder: its radius. Its walls are `floor`, `side`, `lid` \[m\]. Allowed: `ONE_DIAMETER`; `WIDE`.
     /// Default: this or `base`.
     pub radius: Option<f64>,
-    /// Whether the bed repeats itself beyond the sides of `base`; its walls are `floor`, `lid`. In `elements.toml` alone.
+    /// Whether the bed repeats itself beyond the sides of `base`; its walls are `floor`, `lid`. In `dem.toml` alone.
     /// Allowed: `true`, `false`; the `base` has `MORE_DIAMETERS`.
     #[serde(default)]
     pub endless: bool,
     /// Acceleration of gravity, first along −z [m/s²]. Allowed: `POSITIVE`, and so large that the spheres come to rest within
-    /// `MOST_STEPS` steps.
+    /// `MAX_STEPS` steps.
     #[serde(default = "usual_gravity")]
     pub gravity: f64,
 }
@@ -223,7 +223,7 @@ fn usual_tolerance() -> f64 {
 }
 
 /// Most steps in which poured grains have to come to rest: those of cases/beds have some 500 000.
-const MOST_STEPS: f64 = 1e8;
+const MAX_STEPS: f64 = 1e8;
 /// Name of the file in the folder of a case.
 pub const FILE: &str = "bed.toml";
 /// Parts of the temperatures of a run at which the conductivity of the grains is held against that of the gas.
@@ -358,7 +358,7 @@ impl BedCase {
         hardness("plate.hardness", self.plate.roughness, self.plate.hardness)?;
         if self.grains.thermal_expansion.is_some() || self.container.endless {
             let key = if self.container.endless { "container.endless" } else { "grains.thermal_expansion" };
-            let allowed = "only in elements.toml, where grains expand".to_string();
+            let allowed = "only in dem.toml, where grains expand".to_string();
             return Err((key.into(), "given".into(), allowed));
         }
         self.grains.check(range, &self.gas)?;
@@ -454,7 +454,7 @@ const FRICTIONS: [f64; 2] = [0.0, 10.0];
 const RESTITUTIONS: [f64; 2] = [0.001, 1.0];
 const POISSON_RATIOS: [f64; 2] = [0.0, 0.5];
 const RAYS: [f64; 2] = [1.0, 1_000_000.0];
-const USUAL_RAYS: usize = 1000;
+const DEFAULT_RAYS: usize = 1000;
 const POROSITIES: [f64; 2] = [0.35, 0.7];
 /// Difference of scaled exchanges from those traced with their own emissivity, see `tests/radiation.rs` \[%\].
 const SCALED_ERROR: f64 = 2.0;
@@ -527,7 +527,7 @@ impl Grains {
         let Some(spheres) = self.emissivity_between(range) else { return Ok(None) };
         let mut emissivities = Emissivities { spheres, walls: vec![0.0; simulation.boundary.walls().len()] };
         walls.iter().for_each(|&(wall, own)| emissivities.walls[wall] = own.unwrap_or(spheres));
-        let tracing = Tracing { rays: self.rays.unwrap_or(USUAL_RAYS), seed, threads };
+        let tracing = Tracing { rays: self.rays.unwrap_or(DEFAULT_RAYS), seed, threads };
         exchange(&Enclosure::new(simulation), &emissivities, &tracing).map(Some)
     }
 
@@ -579,7 +579,7 @@ impl Grains {
                 inside(simulated, POSITIVE) && simulated <= self.young_modulus,
             ),
             emissivity("grains.emissivity", constant, "without radiation"),
-            ranged("grains.rays", self.rays.unwrap_or(USUAL_RAYS) as f64, RAYS),
+            ranged("grains.rays", self.rays.unwrap_or(DEFAULT_RAYS) as f64, RAYS),
             rough("grains.roughness", self.roughness),
         ]
     }
@@ -611,8 +611,8 @@ impl Grains {
             ));
         }
         let [least, _] = self.ratios(range, keys);
-        if least < LEAST_RATIO {
-            let text = format!("grains that conduct {LEAST_RATIO} times as well as the gas, at least");
+        if least < MIN_RATIO {
+            let text = format!("grains that conduct {MIN_RATIO} times as well as the gas, at least");
             return Err(("grains.conductivity".into(), format!("{least:.2} times that of the gas"), text));
         }
         Ok(())
@@ -680,15 +680,15 @@ impl Vessel {
     /// Refuses a gravity so low that the grains would take too many steps to come to rest.
     fn check_gravity(&self, grains: &Grains) -> Result<(), Wrong> {
         let pouring = grains.pouring(0, self.container(), self.gravity, 1);
-        let excess = pouring.longest / pouring.step() / MOST_STEPS;
+        let excess = pouring.longest / pouring.step() / MAX_STEPS;
         if excess.is_nan() || excess <= 1.0 {
             return Ok(());
         }
         // The time goes with g^(-1/2), and the time step at most with g^(-1/10).
         let least = self.gravity * excess.powf(2.5);
         let allowed = format!(
-            "about {least:.0e} m/s2 at least for these grains, which would take up to {:.0e} steps to come to rest; {MOST_STEPS:.0e} are allowed",
-            excess * MOST_STEPS
+            "about {least:.0e} m/s2 at least for these grains, which would take up to {:.0e} steps to come to rest; {MAX_STEPS:.0e} are allowed",
+            excess * MAX_STEPS
         );
         Err(("container.gravity".into(), number(self.gravity), allowed))
     }

@@ -3,7 +3,7 @@
 //! Contacts and gas are two networks whose conductivities add, K = k_s κ_c + k_g κ_g: each of κ_c and κ_g is free of the
 //! other's material. One network of both conducts a little more.
 
-use crate::links::Link;
+use crate::conductances::Link;
 use crate::solve::{conjugate_gradients, inner};
 use msdd_spheres::space::dot;
 

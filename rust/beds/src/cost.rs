@@ -1,6 +1,6 @@
 //! How long a bed whose walls move takes to compute, by an estimate before it begins.
 
-use crate::scene::Scene;
+use crate::dem_case::DemCase;
 
 /// Processor time of a step of one sphere \[s\], on one core. From 400 spheres and 216 000 steps, 8.3 core-seconds.
 const STEP: f64 = 1e-7;
@@ -13,14 +13,14 @@ const INTERVAL: f64 = 1.5;
 /// An estimate.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cost {
-    /// Of the discrete elements, from pouring to the end.
+    /// Of DEM, from pouring to the end.
     pub steps: f64,
     /// \[s\]
     pub seconds: f64,
 }
 
 /// The cost of one packing of a bed.
-pub fn estimate(scene: &Scene, threads: usize) -> Cost {
+pub fn estimate(scene: &DemCase, threads: usize) -> Cost {
     let (grains, gravity) = (&scene.grains, scene.container.gravity);
     let pouring = grains.pouring(scene.seed, scene.vessel(), gravity, threads);
     let down = pouring.fall() + REST * (grains.diameter / gravity).sqrt();

@@ -6,7 +6,7 @@
 //! deep as it is wide a third of the load. From there on they have the stiffness of their material.
 //!
 //! Time goes on in intervals. In each, heat flows through the contacts as they are at its start; then radii and walls change evenly in
-//! half of the steps of the discrete elements, and come to rest in the other half. Both halves take longer where the bed lags: radii and
+//! half of the steps of DEM, and come to rest in the other half. Both halves take longer where the bed lags: radii and
 //! walls wait while more than 2 % of the load is out of balance, and an interval ends when less than 0.1 % is. A bed that lags lets
 //! contacts slide that would not slide at rest. Where 400 times the steps are not enough, the rest of the motion is hurried, and after
 //! 100 times the steps of the rest the interval ends as it is; the summary then warns and says how many intervals that were. A heated
@@ -15,18 +15,18 @@
 //! The motion is not the motion in real time: it shows how a bed at rest changes, and how far from rest it is is recorded.
 
 use crate::BedError;
+use crate::dem_case::DemCase;
 use crate::exchange::Exchange;
-use crate::give::{BLOCK, Hold, Moving, drag, steered, wall_area};
 use crate::harden::harden;
 use crate::network::{Materials, Network, Plate, PlateLaw};
 use crate::pour::pour;
 use crate::press::press;
 use crate::profile::{Probe, Width, slab, solid_fraction};
 use crate::region::{Region, lengths};
-use crate::scene::Scene;
 use crate::settle::{Rest, progress};
 use crate::solid::{PeakStress, Roughness};
 use crate::transient::Transient;
+use crate::wall_control::{BLOCK, Moving, WallControl, drag, steered, wall_area};
 use msdd_spheres::law::effective_modulus;
 use msdd_spheres::space::length;
 use msdd_spheres::{Partner, Simulation};
@@ -37,7 +37,7 @@ const FIRST_STEP: f64 = 0.1;
 /// Share of the load that is out of balance \[-\] above which radii and walls wait, and then change by half as much at a time. A bed
 /// that moves lags by its drag and inertia: where a lid was off by a tenth of its pressure, contacts slid that would not slide in a
 /// bed at rest, and the pressure was 3 to 5 % off.
-const MOST_LAG: f64 = 0.02;
+const MAX_LAG: f64 = 0.02;
 /// The same below which a bed is near rest, and they change by twice as much at a time, at most by an even part of the interval.
 const LITTLE_LAG: f64 = 0.005;
 /// The same below which a bed is at rest, which ends an interval.
@@ -53,10 +53,10 @@ const LONGEST_REST: u64 = 100;
 /// Overlap of a contact over the radius above which Hertz's law is an extrapolation, and above which it has no meaning. It holds for
 /// contacts small beside the spheres (K. L. Johnson, Contact Mechanics, 1985, section 4.2): at these the contact's radius is 0.16 and 0.35
 /// of that of the spheres.
-pub const MOST_OVERLAP: f64 = 0.05;
+pub const MAX_OVERLAP: f64 = 0.05;
 const ABSURD_OVERLAP: f64 = 0.25;
 /// A share of the friction above 1 by less than this is rounding and damping.
-const MOST_MOBILISED: f64 = 1.01;
+const MAX_MOBILISED: f64 = 1.01;
 
 /// A bed at rest under its lid.
 #[derive(Clone, Debug)]
@@ -113,7 +113,7 @@ impl Row {
 
     /// Refuses averages that no bed has, as of a region with hardly a contact.
     fn check(&self) -> Result<(), BedError> {
-        let mobilisation = if self.mobilisation <= MOST_MOBILISED { self.mobilisation } else { f64::NAN };
+        let mobilisation = if self.mobilisation <= MAX_MOBILISED { self.mobilisation } else { f64::NAN };
         let several = [
             ("T", self.temperatures.as_slice()),
             ("stress", self.stress.as_slice()),
@@ -133,7 +133,7 @@ impl Row {
 
 /// Tangential over normal force of the side of a cylinder on the grains, above 0 where it holds the bed down: what the floor bears
 /// more than lid and weight comes from the side. `None` without a side.
-pub fn side_friction(scene: &Scene, row: &Row) -> Option<f64> {
+pub fn side_friction(scene: &DemCase, row: &Row) -> Option<f64> {
     let [floor, side, lid] =
         ["floor", "side", "lid"].map(|name| scene.wall(name).map(|wall| row.walls[wall]));
     let (grains, area) = (&scene.grains, PI * row.radius * row.radius);
@@ -152,7 +152,7 @@ pub struct Run {
     pub residual: f64,
     /// Largest overlap of a contact over the radius, at the times of the rows.
     pub overlap: f64,
-    /// Steps of heat, and of the discrete elements.
+    /// Steps of heat, and of DEM.
     pub heat_steps: u64,
     pub steps: u64,
     /// Intervals, those of them whose motion had to be hurried, and those that ended with more out of balance than beds near rest have.
@@ -166,7 +166,7 @@ pub struct Run {
 /// # Errors
 /// Those of the stages; a stage that does not come to rest.
 pub fn prepare(
-    scene: &Scene,
+    scene: &DemCase,
     threads: usize,
     mut watch: impl FnMut(&'static str, f64),
 ) -> Result<Prepared, BedError> {
@@ -175,7 +175,7 @@ pub fn prepare(
     let allowed = pouring.longest;
     let rested = |stage: &'static str, rest: Rest| match rest.at_rest {
         true => Ok((stage, rest)),
-        false => Err(BedError::Restless { stage, time: rest.time, kinetic: rest.kinetic }),
+        false => Err(BedError::NotSettled { stage, time: rest.time, kinetic: rest.kinetic }),
     };
     let (mut simulation, rest) = pour(&pouring, |agitation| watch("pour", progress(agitation)))?;
     let mut stages = vec![rested("pour", rest)?];
@@ -198,7 +198,7 @@ pub fn prepare(
 
 /// The bed on its way.
 struct Coupled<'a> {
-    scene: &'a Scene,
+    scene: &'a DemCase,
     exchange: Option<&'a Exchange>,
     simulation: Simulation,
     network: Network,
@@ -222,7 +222,7 @@ struct Coupled<'a> {
 ///
 /// # Errors
 /// A distance without grains; heat that does not converge; those of [`Simulation::run`].
-pub fn run(scene: &Scene, prepared: &Prepared, mut watch: impl FnMut(f64)) -> Result<Run, BedError> {
+pub fn run(scene: &DemCase, prepared: &Prepared, mut watch: impl FnMut(f64)) -> Result<Run, BedError> {
     let mut bed = Coupled::new(scene, prepared);
     let (high, depth) = (scene.record.heights[1], bed.depth());
     if high > depth {
@@ -249,7 +249,7 @@ pub fn run(scene: &Scene, prepared: &Prepared, mut watch: impl FnMut(f64)) -> Re
 }
 
 impl<'a> Coupled<'a> {
-    fn new(scene: &'a Scene, prepared: &'a Prepared) -> Self {
+    fn new(scene: &'a DemCase, prepared: &'a Prepared) -> Self {
         let (simulation, exchange) = (prepared.simulation.clone(), prepared.exchange.as_ref());
         let number = |name: &str| scene.wall(name).unwrap_or_default();
         let lid = number("lid");
@@ -263,8 +263,11 @@ impl<'a> Coupled<'a> {
             temperatures: vec![start; simulation.spheres.len()],
             radii: simulation.spheres.iter().map(|sphere| sphere.radius).collect(),
             places: simulation.spheres.iter().map(|sphere| sphere.position).collect(),
-            lid: Moving::new(lid, Hold::Place { moved: 0.0 }),
-            shell: scene.shell.as_ref().map(|_| Moving::new(number("side"), Hold::Place { moved: 0.0 })),
+            lid: Moving::new(lid, WallControl::Place { moved: 0.0 }),
+            shell: scene
+                .shell
+                .as_ref()
+                .map(|_| Moving::new(number("side"), WallControl::Place { moved: 0.0 })),
             depth_at_start: 0.0,
             sides: None,
             part: 0.0,
@@ -287,7 +290,7 @@ impl<'a> Coupled<'a> {
             (&mut bed.shell, &scene.shell, scene.container.radius)
         {
             let stiffness = keys.young_modulus * keys.thickness / (radius * radius);
-            shell.hold = Hold::Shell { stiffness, at_start, grown: 0.0 };
+            shell.hold = WallControl::Shell { stiffness, at_start, grown: 0.0 };
         }
         bed
     }
@@ -340,12 +343,12 @@ impl<'a> Coupled<'a> {
         while share < 1.0 {
             let (lag, late) = (self.lag(), blocks >= LONGEST * least);
             self.part = match lag {
-                lag if lag > MOST_LAG => 0.5 * self.part,
+                lag if lag > MAX_LAG => 0.5 * self.part,
                 lag if lag < LITTLE_LAG => 2.0 * self.part,
                 _ => self.part,
             };
             self.part = self.part.clamp(longest / PARTS as f64, longest);
-            if lag <= MOST_LAG || late {
+            if lag <= MAX_LAG || late {
                 hurried |= late;
                 share = f64::min(share + if late { longest } else { self.part }, 1.0);
                 for ((radius, a), b) in radii.iter_mut().zip(&before).zip(&after) {
@@ -421,15 +424,15 @@ impl<'a> Coupled<'a> {
     fn aim(&mut self, time: f64) {
         let keys = &self.scene.lid;
         self.lid.hold = match (&keys.strain, &keys.pressing) {
-            (Some(strain), _) => Hold::Place { moved: strain.at(time) * self.depth_at_start },
-            (None, Some(pressing)) => Hold::Pressure { pressure: pressing.at(time) },
-            (None, None) => Hold::Place { moved: 0.0 },
+            (Some(strain), _) => WallControl::Place { moved: strain.at(time) * self.depth_at_start },
+            (None, Some(pressing)) => WallControl::Pressure { pressure: pressing.at(time) },
+            (None, None) => WallControl::Place { moved: 0.0 },
         };
         self.sides = self.scene.sides.as_ref().zip(self.scene.container.base).map(|(sides, [x, y])| {
             [x * (1.0 + sides.strain_x.at(time)), y * (1.0 + sides.strain_y.at(time))]
         });
         let wall = self.wall_growth(time);
-        if let Some(Hold::Shell { grown, .. }) = self.shell.as_mut().map(|shell| &mut shell.hold) {
+        if let Some(WallControl::Shell { grown, .. }) = self.shell.as_mut().map(|shell| &mut shell.hold) {
             *grown = wall;
         }
     }
@@ -540,13 +543,13 @@ fn depth(simulation: &Simulation, lid: usize) -> f64 {
 }
 
 /// Where the averages are taken.
-fn region(scene: &Scene, simulation: &Simulation) -> Region {
+fn region(scene: &DemCase, simulation: &Simulation) -> Region {
     let keys = &scene.record;
     Region { heights: keys.heights, radius: keys.radius, area: area(scene, simulation) }
 }
 
 /// Of the floor \[m²\]; the base of a bed without sides may be strained.
-fn area(scene: &Scene, simulation: &Simulation) -> f64 {
+fn area(scene: &DemCase, simulation: &Simulation) -> f64 {
     lengths(simulation).map_or_else(|| scene.vessel().area(), |[x, y]| x * y)
 }
 
@@ -559,7 +562,7 @@ fn spread(simulation: &mut Simulation, aim: Option<[f64; 2]>, left: f64) {
 }
 
 /// The network of a bed whose heated walls hold the first layer of grains.
-fn network(scene: &Scene, (simulation, exchange): (&Simulation, Option<&Exchange>), depth: f64) -> Network {
+fn network(scene: &DemCase, (simulation, exchange): (&Simulation, Option<&Exchange>), depth: f64) -> Network {
     let grains = &scene.grains;
     let middle = [0.25, 0.75].map(|part| part * depth);
     let floor = simulation.boundary.walls()[0];
@@ -590,6 +593,6 @@ fn network(scene: &Scene, (simulation, exchange): (&Simulation, Option<&Exchange
 }
 
 /// Numbers of the heated walls.
-fn heated_walls(scene: &Scene) -> impl Iterator<Item = usize> {
+fn heated_walls(scene: &DemCase) -> impl Iterator<Item = usize> {
     scene.heated.iter().map(|heated| scene.wall(&heated.wall).unwrap_or_default())
 }

@@ -21,7 +21,7 @@ use std::f64::consts::PI;
 pub const POOR: f64 = 20.0;
 pub const GOOD: f64 = 60.0;
 /// Spheres that conduct less than this times as well as the gas are beyond the closure.
-pub const LEAST_RATIO: f64 = 1.0;
+pub const MIN_RATIO: f64 = 1.0;
 /// Third and fourth coefficient of [`poor_spheres`], the only ones that are fitted.
 const FITTED: [f64; 2] = [0.079, 0.0041];
 /// λ at which a contact adds half of its own conductance.
@@ -48,15 +48,15 @@ pub fn pairs(solid_fraction: f64, distance: f64, radius: f64) -> f64 {
 }
 
 /// ln(R/h) below which the law of spheres does not know κ_g, which is then that of the [`pairs`] of touching spheres.
-pub const LEAST_NUMBER: f64 = 2.5;
+pub const MIN_NUMBER: f64 = 2.5;
 
-/// κ_g at the number of a gas over that at [`LEAST_NUMBER`], where it is below; else 1.
+/// κ_g at the number of a gas over that at [`MIN_NUMBER`], where it is below; else 1.
 fn beyond_law(solid_fraction: f64, number: f64) -> f64 {
-    if number >= LEAST_NUMBER {
+    if number >= MIN_NUMBER {
         return 1.0;
     }
     let at = |number: f64| pairs(solid_fraction, libm::exp(-number), 1.0);
-    at(number) / at(LEAST_NUMBER)
+    at(number) / at(MIN_NUMBER)
 }
 
 /// How much the law of pairs counts for κ: 0 for poor conductors, 1 for good ones.
@@ -125,7 +125,7 @@ pub struct BedState {
     pub solid_fraction: f64,
     /// Contacts per sphere.
     pub coordination: f64,
-    /// κ_g by the law of pairs, at the number of the gas, at least [`LEAST_NUMBER`].
+    /// κ_g by the law of pairs, at the number of the gas, at least [`MIN_NUMBER`].
     pub gas: f64,
 }
 
@@ -310,7 +310,7 @@ mod tests {
                 let material = BedMaterial { solid, gas: GasName::Helium, gas_pressure: pressure, ..steel() };
                 let helium = material.gas_at(573.0).expect("no vacuum");
                 // As the law answers, which knows the gas of numbers from 2.5 on.
-                let number = material.gas_number(&helium).max(LEAST_NUMBER);
+                let number = material.gas_number(&helium).max(MIN_NUMBER);
                 let gas = pairs(0.6, material.radius * libm::exp(-number), material.radius);
                 let bed = BedState { pressure: 0.0, solid_fraction: 0.6, coordination: 5.0, gas };
                 (

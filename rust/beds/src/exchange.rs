@@ -4,7 +4,7 @@
 //! body j, after any reflections between, and heat between both is 4 σ T³ ε_i A_i s_ij (T_i − T_j) for small differences: ε_i A_i s_ij
 //! = ε_j A_j s_ji (Modest, Radiative Heat Transfer, 2003, section 20.3). A packing hardly moves, so its shares are traced once.
 
-use crate::links::Link;
+use crate::conductances::Link;
 use crate::random::Random;
 use crate::rays::{Body, Enclosure};
 use msdd_engine::message::{number, range};

@@ -12,9 +12,9 @@
 //!   term was fitted to numerical solutions of their integral equation with the gap M + r²/R.
 //!
 //! Below κ of about 30 the heat spreads far from straight lines, and the law is 26 to 34 % too low at κ = 10: from 60 down
-//! [`crate::effective`] takes its place. Between which pairs gas counts is said in [`crate::links`].
+//! [`crate::effective`] takes its place. Between which pairs gas counts is said in [`crate::conductances`].
 //!
-//! What passes between a plate and a bed depends on which spheres see it: see [`crate::facing`]. The closed form here is that of
+//! What passes between a plate and a bed depends on which spheres see it: see [`crate::plate_view_areas`]. The closed form here is that of
 //! [`crate::wall`], for a full layer of spheres that touch a wall. The plate is the plane of symmetry between a sphere and its mirror image, whose gap is twice
 //! as wide and in which heat jumps twice as far: so G of a sphere and a plate is twice that of the pair, with h of the pair at the
 //! double gap and the double M. That counts what goes along straight lines from the facing hemisphere; 0.56 R is added to

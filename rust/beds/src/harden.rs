@@ -4,8 +4,8 @@
 //! contacts, which is small beside m g r, so hardly a grain changes its place.
 
 use crate::BedError;
-use crate::give::{Hold, Moving, drag, steered};
 use crate::settle::Rest;
+use crate::wall_control::{Moving, WallControl, drag, steered};
 use msdd_spheres::{Simulation, Sphere, Stiffness};
 
 /// Blocks of steps, in each of which the modulus changes once, while it doubles.
@@ -33,7 +33,7 @@ pub fn harden(
         return Ok(Rest { at_rest: true, kinetic: 0.0, time: 0.0, steps: 0 });
     };
     let hard = (BLOCKS * libm::log2(young_modulus / soft)).ceil().max(1.0) as u64;
-    let mut lid = Moving::new(lid, Hold::Pressure { pressure });
+    let mut lid = Moving::new(lid, WallControl::Pressure { pressure });
     let mut block = 0;
     loop {
         block += 1;

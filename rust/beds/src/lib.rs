@@ -11,7 +11,7 @@
 //! | [`pour`](mod@pour) | grains rain into a box or cylinder until they are at rest |
 //! | [`press`](mod@press) | a wall that is pressed onto a bed |
 //! | [`mod@harden`] | grains that were poured soft get their stiffness under a lid |
-//! | [`give`] | walls that move on a path, under a pressure, or as a shell gives way |
+//! | [`wall_control`] | walls that move on a path, under a pressure, or as a shell gives way |
 //! | [`pack`](mod@pack) | compression of a periodic box to a pressure |
 //! | [`schedule`] | a quantity that is given over time |
 //! | [`property`] | properties by temperature |
@@ -20,8 +20,8 @@
 //! | [`solid`] | law of heat through a contact, smooth or rough; stress in it |
 //! | [`effective`] | from the reduced conductivities of the law of spheres to those of a bed |
 //! | [`wall`] | what a wall adds to the resistance of a bed |
-//! | [`links`] | conductances between the spheres of a simulation: contact, gas |
-//! | [`facing`](mod@facing) | which part of a plate belongs to which sphere |
+//! | [`conductances`] | conductances between the spheres of a simulation: contact, gas |
+//! | [`plate_view_areas`](mod@plate_view_areas) | which part of a plate belongs to which sphere |
 //! | [`rays`] | straight rays between spheres and walls |
 //! | [`exchange`](mod@exchange) | exchange of heat by radiation between spheres and walls, by ray tracing |
 //! | [`correlation`] | published correlation for packed beds |
@@ -34,14 +34,14 @@
 //! | [`profile`] | a bed between two distances from a plate; probes |
 //! | [`mobilised`] | how much of the friction of its contacts a packing has mobilised |
 //! | [`region`] | stresses in the inner part of a bed |
-//! | [`scene`] | the description of a bed whose walls move while heat flows |
+//! | [`dem_case`] | the description of a bed whose walls move while heat flows |
 //! | [`coupled`] | such a bed: heat, growth of the grains, walls, averages over time |
 //! | [`cost`] | how long it takes, by an estimate |
 //! | [`rows`] | its averages as a file |
 //! | [`packings`] | mean and scatter of several packings of such a bed, from their files |
 //! | [`bed`] | a measured bed from pouring to temperatures |
 //! | [`voxels`] | direct solutions of the heat equation, to hold the laws against |
-//! | [`walks`] | direct solutions of the heat equation between isothermal spheres, likewise |
+//! | [`walk_on_spheres`] | direct solutions of the heat equation between isothermal spheres, likewise |
 //! | [`vtk`] | grains for ParaView |
 //! | [`conductivity`](mod@conductivity) | conductivity of a periodic box by its network of conductances |
 #![forbid(unsafe_code)]
@@ -49,23 +49,23 @@
 pub mod averages;
 pub mod bed;
 pub mod case;
+pub mod conductances;
 pub mod conductivity;
 pub mod correlation;
 pub mod cost;
 pub mod coupled;
+pub mod dem_case;
 pub mod effective;
 pub mod exchange;
 pub mod experiment;
-pub mod facing;
 pub mod gas;
-pub mod give;
 pub mod harden;
-pub mod links;
 pub mod mobilised;
 pub mod named_gases;
 pub mod network;
 pub mod pack;
 pub mod packings;
+pub mod plate_view_areas;
 pub mod plates;
 pub mod pour;
 pub mod press;
@@ -77,7 +77,6 @@ pub mod rays;
 pub mod region;
 pub mod rows;
 pub mod scatter;
-pub mod scene;
 pub mod schedule;
 pub mod settle;
 pub mod solid;
@@ -85,8 +84,9 @@ mod solve;
 pub mod transient;
 pub mod voxels;
 pub mod vtk;
-pub mod walks;
+pub mod walk_on_spheres;
 pub mod wall;
+pub mod wall_control;
 
 pub use averages::{Averages, averages};
 pub use pack::{Packed, Packing, pack, pack_along, shake};
@@ -104,16 +104,16 @@ pub enum BedError {
         "stage '{stage}': after {time:.3} s the grains still move (kinetic energy {kinetic:.1e} of that of falling by a radius), \
          allowed: a bed at rest; try more friction, a lower restitution, or another pressure of lid and plate"
     )]
-    Restless { stage: &'static str, time: f64, kinetic: f64 },
+    NotSettled { stage: &'static str, time: f64, kinetic: f64 },
     #[error(
         "plate.wall = {wall}, with no grain beside it, allowed: a wall that the bed touches, or plate.pressure"
     )]
-    Apart { wall: String },
+    WallNotTouching { wall: String },
     #[error(
         "stage 'lid': {depth:.4e} m above the floor, where lid.porosity has it, the lid does not touch the grains: the highest is at \
          {highest:.4e} m, allowed: a smaller lid.porosity"
     )]
-    Untouched { depth: f64, highest: f64 },
+    LidNotTouching { depth: f64, highest: f64 },
     /// `key`: that of the distance \[m\].
     #[error("{key} = {distance}, allowed: distances from the wall at which there are grains")]
     NoGrains { key: &'static str, distance: f64 },

@@ -1,12 +1,12 @@
 //! The network of a bed at rest: what conducts between which spheres and plates, and how well at given temperatures.
 
+use crate::conductances::{Near, near_pairs};
 use crate::correlation::STEFAN_BOLTZMANN;
 use crate::effective::{contact_factor, gas_alone, pair_factor};
 use crate::exchange::Exchange;
-use crate::facing::{Facing, facing};
 use crate::gas::{Gas, gas_conductance};
-use crate::links::{Near, near_pairs};
 use crate::named_gases::GasName;
+use crate::plate_view_areas::{Facing, facing};
 use crate::property::Property;
 use crate::radiation::{Dark, black, factor};
 use crate::solid::{Roughness, Solid};
@@ -90,7 +90,7 @@ pub struct Surfaces {
 }
 
 /// φ by which an emissivity that varies is scaled where no other is given; it hardly matters.
-const USUAL_FRACTION: f64 = 0.6;
+const REFERENCE_FRACTION: f64 = 0.6;
 
 /// A bed at rest.
 #[derive(Clone, Debug, PartialEq)]
@@ -204,7 +204,7 @@ impl Network {
     /// which rays were traced ([`crate::radiation`]).
     fn left(&self, surfaces: &Surfaces, temperatures: &[f64]) -> Vec<f64> {
         let m = &self.materials;
-        let fraction = m.solid_fraction.unwrap_or(USUAL_FRACTION);
+        let fraction = m.solid_fraction.unwrap_or(REFERENCE_FRACTION);
         let traced = factor(surfaces.traced, fraction);
         let of = |(t, radius): (&f64, &f64)| {
             let emissivity = surfaces.emissivity.at(*t);

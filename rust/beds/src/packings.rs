@@ -60,7 +60,7 @@ pub fn join(seeds: &[u64], tables: &[String]) -> Option<Joined> {
     let seeds: Vec<String> = seeds.iter().map(ToString::to_string).collect();
     let text = |what: &str, of: fn(&[f64]) -> f64| {
         let mut text = format!(
-            "# Discrete elements: {what} of {} packings, seeds {}; made by 'msdd bed run --packings' of msdd {} from elements.toml\n",
+            "# DEM: {what} of {} packings, seeds {}; made by 'msdd bed run --packings' of msdd {} from dem.toml\n",
             tables.len(),
             seeds.join(" "),
             env!("CARGO_PKG_VERSION"),
@@ -108,7 +108,7 @@ mod tests {
         let rows = |text: &str| text.lines().skip(2).map(str::to_string).collect::<Vec<_>>();
         assert_eq!(rows(&joined.mean), ["time,T_0.01,radius", "0,300,", "60,311.5,"]);
         assert_eq!(rows(&joined.scatter), ["time,T_0.01,radius", "0,0,", "60,1.414214,"]);
-        assert!(joined.mean.starts_with("# Discrete elements: mean of 2 packings, seeds 3 4;"));
+        assert!(joined.mean.starts_with("# DEM: mean of 2 packings, seeds 3 4;"));
         assert_eq!(at_start(&joined.mean, "T_0.01"), Some(300.0));
         assert_eq!((at_start(A, "radius"), at_start(A, "fabric_1")), (None, None));
         // One packing is its own mean, and tells nothing of the scatter.

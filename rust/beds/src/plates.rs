@@ -2,13 +2,13 @@
 //!
 //! Spheres at a plate find no hold: a bed between plates is shortened by more than its strain. What the plates have moved towards each other
 //! beyond the strain of the inside times the depth is ascribed to an extra thickness of bed at each plate, which is strained as
-//! the inside is, less what the spheres have grown. Where the bed is let up, only a share of it comes back. These are the keys `give`
-//! and `giveBack` of the solver's walls.
+//! the inside is, less what the spheres have grown. Where the bed is let up, only a share of it comes back. These are the keys `slackLayer`
+//! and `slackRecovery` of the solver's walls.
 
 use crate::packings::column;
 
 /// Change of the load below which nothing is counted, over the load: where a lid keeps its pressure, the load tells nothing.
-const LEAST_CHANGE: f64 = 0.01;
+const MIN_CHANGE: f64 = 0.01;
 
 /// What a bed has given at its plates.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -29,7 +29,7 @@ pub fn give(text: &str, diameter: f64) -> Option<Give> {
     for k in 1..depth.len() {
         let lengthening = (strain[k] - thermal[k]) - (strain[k - 1] - thermal[k - 1]);
         let change = load[k] - load[k - 1];
-        if change.abs() < LEAST_CHANGE * load[k - 1] || lengthening * change >= 0.0 {
+        if change.abs() < MIN_CHANGE * load[k - 1] || lengthening * change >= 0.0 {
             continue;
         }
         // Towards each other, beyond the strain of the whole depth.

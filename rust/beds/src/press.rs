@@ -82,7 +82,7 @@ pub fn close(
     let normal = approach(simulation, lid)?;
     let highest = simulation.boundary.walls()[lid].point[2];
     if highest <= depth {
-        return Err(BedError::Untouched { depth, highest });
+        return Err(BedError::LidNotTouching { depth, highest });
     }
     simulation.drag = descent(diameter, gravity).1;
     let speed = CLOSING * (gravity / diameter).sqrt() * depth;

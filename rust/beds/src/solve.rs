@@ -1,7 +1,7 @@
 //! Sparse linear equations that are symmetric and positive.
 
 /// Iterations after which a solution is given up.
-const MOST_ITERATIONS: usize = 10_000;
+const MAX_ITERATIONS: usize = 10_000;
 
 pub(crate) fn inner(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
@@ -22,7 +22,7 @@ pub(crate) fn conjugate_gradients(
     let mut direction = precondition(residual);
     let mut product = inner(residual, &direction);
     let mut flow = vec![0.0; diagonal.len()];
-    for _ in 0..MOST_ITERATIONS {
+    for _ in 0..MAX_ITERATIONS {
         if enough(residual) {
             return Some(solution);
         }

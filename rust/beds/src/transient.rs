@@ -22,9 +22,9 @@ pub const MISSED: f64 = 1e-11;
 const ROUND_OFF: f64 = 8.0 * f64::EPSILON;
 /// A step that does not converge is tried again, this much shorter, down to this share of the end.
 const SHORTER: f64 = 0.25;
-const LEAST_STEP: f64 = 1e-9;
+const MIN_STEP: f64 = 1e-9;
 /// Newton's iterations: the conductances change little in a step, and are not differentiated, so it takes three or four.
-const MOST_ITERATIONS: usize = 30;
+const MAX_ITERATIONS: usize = 30;
 /// How much of the residual an iteration leaves.
 const LEFT: f64 = 1e-4;
 
@@ -124,7 +124,7 @@ impl<'a> Transient<'a> {
     fn stage(&mut self, start: &[f64], dt: f64) -> Option<(Vec<f64>, Vec<f64>)> {
         let network = self.network;
         let capacity = &network.materials.heat_capacity;
-        for _ in 0..MOST_ITERATIONS {
+        for _ in 0..MAX_ITERATIONS {
             let conductances = network.conductances(&self.temperatures, &self.plates);
             let (flow, given) = self.flow(&conductances);
             let mut diagonal = vec![0.0; start.len()];
@@ -235,21 +235,21 @@ impl<'a> Transient<'a> {
     /// # Errors
     /// [`NotConverged`], of a step that cannot be made shorter.
     pub fn run_to(&mut self, end: f64, tolerance: f64, step: &mut f64) -> Result<(), NotConverged> {
-        while end - self.time > LEAST_STEP * end {
+        while end - self.time > MIN_STEP * end {
             let left = end - self.time;
             // No step that leaves a splinter.
             let dt = if *step >= left { left } else { step.min(0.5 * left) };
             let before = self.clone();
             let error = match self.step(dt) {
                 Ok(error) => error,
-                Err(_) if SHORTER * dt > LEAST_STEP * end => {
+                Err(_) if SHORTER * dt > MIN_STEP * end => {
                     *step = SHORTER * dt;
                     continue;
                 }
                 Err(error) => return Err(error),
             };
             let factor = 0.9 * (tolerance / error.max(1e-300)).sqrt();
-            if error > tolerance && dt > LEAST_STEP * end {
+            if error > tolerance && dt > MIN_STEP * end {
                 *self = before;
                 *step = dt * factor.clamp(0.1, 0.9);
                 continue;

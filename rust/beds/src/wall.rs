@@ -13,7 +13,7 @@
 //! less 0.165/F, because the layers beside a wall are loose.
 //!
 //! Beside a floor along which spheres were poured, with n = 0.87 (counted are gaps up to half a radius), this h is 2 to 11 % above that of the
-//! network, whose plate is shared by all spheres that see it ([`crate::facing`]): not all n spheres bear (`examples/walls.rs`).
+//! network, whose plate is shared by all spheres that see it ([`crate::plate_view_areas`]): not all n spheres bear (`examples/walls.rs`).
 
 use crate::effective::BedMaterial;
 use crate::gas::plate_conductance;

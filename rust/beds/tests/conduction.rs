@@ -1,9 +1,9 @@
 //! Conductivity of crystals against closed forms, and of a packing against what must hold for any network.
 
+use msdd_beds::conductances::{Link, contact_links, gas_links};
 use msdd_beds::conductivity::{Conductivity, conductivity, mean};
 use msdd_beds::effective::{closure_error, pair_factor, poor_spheres};
 use msdd_beds::gas::{Gas, gas_conductance};
-use msdd_beds::links::{Link, contact_links, gas_links};
 use msdd_beds::solid::Solid;
 use msdd_beds::{Packing, pack};
 use msdd_spheres::law::effective_modulus;

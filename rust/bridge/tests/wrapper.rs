@@ -2,7 +2,7 @@
 //! traps.
 
 use msdd_bridge::ffi::{self, Cells};
-use msdd_surrogate::surrogate::{Batch, Known, evaluate_batch};
+use msdd_surrogate::surrogate::{Batch, InitialData, evaluate_batch};
 use msdd_surrogate::{Surrogate, models};
 
 const COUNT: usize = 37;
@@ -58,7 +58,7 @@ fn the_wrapper_gives_the_bits_of_the_rust_call() {
         for (i, [porosity, fabric_index]) in
             (0..COUNT).map(|i| (i, [0, 1].map(|k| cells.state[k * COUNT + i])))
         {
-            let known = Known { porosity, fabric_index, ..Known::default() };
+            let known = InitialData { porosity, fabric_index, ..InitialData::default() };
             let state = model.initial_state(&known);
             assert!((0..wrapped.state_size()).all(|k| cells.state[k * COUNT + i] == state[k]));
         }

@@ -301,7 +301,7 @@ int32_t msdd_spheres_wall_resistance(const msdd_sphere_material *material, const
 
 /* ---------------------------------------------------------------------------------------------------------- RVEs */
 
-/** A box of grains, simulated by discrete elements. */
+/** A box of grains, simulated by DEM. */
 typedef struct msdd_rve msdd_rve;
 
 /** Averages over an RVE's averaging region. */
@@ -495,7 +495,7 @@ MSDD_PLUGIN_EXPORT const msdd_plugin_v2 *msdd_plugin_v2_table(void);
 
 /* --------------------------------------------------------------------------------------------- what was compared */
 
-/** Least and largest value of a quantity in the scenes and beds by which a default model was compared with discrete elements.
+/** Least and largest value of a quantity in the scenes and beds by which a default model was compared with DEM.
  *  Beyond them nothing is known of its error. `hash`: SHA-256 of the model (msdd_surrogate_hash, msdd_spheres_hash). `quantity`:
  *  - "reduced_pressure": p over young_modulus x mean_radius / (1 m) of discs, over E/(2 - 2 nu^2) of spheres; the least is of means
  *    over a bed;

@@ -208,7 +208,8 @@ impl<'a> Columns<'a> {
         }
         let lane_state = |lane: usize| answer.state.map(|column| column[lane]);
         if self.spread.is_wanted() {
-            let spread = |lane| model.doubt(&lane_state(lane)).map_or(f64::NAN, |d| d.conductivity_spread);
+            let spread =
+                |lane| model.uncertainty(&lane_state(lane)).map_or(f64::NAN, |d| d.conductivity_spread);
             self.spread.write(first, &std::array::from_fn(spread));
         }
     }

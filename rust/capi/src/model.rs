@@ -9,7 +9,7 @@ use msdd_plugin::Plugin;
 use msdd_surrogate::Surrogate;
 use msdd_surrogate::dataset::ConductivityKind;
 use msdd_surrogate::kernel::LANES;
-use msdd_surrogate::surrogate::Known;
+use msdd_surrogate::surrogate::InitialData;
 use serde_json::{Value, json};
 use std::sync::Arc;
 
@@ -31,7 +31,7 @@ pub(crate) trait BatchModel: Send + Sync {
     /// Limit [-] and slip [mean radii].
     fn wall_friction(&self) -> Option<[f64; 2]>;
     /// Writes the initial state of cells; inputs are finite.
-    fn initial_state(&self, start: &Start, si: &Si, state: &[Output<f64>]) -> Result<(), Failure>;
+    fn initial_state(&self, start: &InitialColumns, si: &Si, state: &[Output<f64>]) -> Result<(), Failure>;
     /// Takes all cells through a step; returns the number with an input outside the trained range.
     fn advance(&self, columns: &Columns, si: &Si) -> Result<usize, Failure>;
     /// Writes solid fractions of initial states; inputs are finite.
@@ -39,7 +39,7 @@ pub(crate) trait BatchModel: Send + Sync {
 }
 
 /// What is known of cells at the start.
-pub(crate) struct Start<'a> {
+pub(crate) struct InitialColumns<'a> {
     pub cells: usize,
     pub porosity: Input<'a>,
     pub fabric_index: Input<'a>,
@@ -110,11 +110,11 @@ impl BatchModel for Own {
         self.0.wall_friction().map(|friction| [friction.limit, friction.slip])
     }
 
-    fn initial_state(&self, start: &Start, si: &Si, state: &[Output<f64>]) -> Result<(), Failure> {
+    fn initial_state(&self, start: &InitialColumns, si: &Si, state: &[Output<f64>]) -> Result<(), Failure> {
         // Cells often start alike: an answer is found once for a run of equal ones.
         let mut last = None;
         for cell in 0..start.cells {
-            let known = Known {
+            let known = InitialData {
                 porosity: start.porosity.at(cell),
                 fabric_index: start.fabric_index.at(cell),
                 fabric_xy: start.fabric_xy.map_or(0.0, |column| column.at(cell)),
@@ -200,7 +200,7 @@ impl BatchModel for Plugin {
         Plugin::wall_friction(self).map(|friction| [friction.limit, friction.slip])
     }
 
-    fn initial_state(&self, start: &Start, si: &Si, state: &[Output<f64>]) -> Result<(), Failure> {
+    fn initial_state(&self, start: &InitialColumns, si: &Si, state: &[Output<f64>]) -> Result<(), Failure> {
         let column = |input: &Input| (0..start.cells).map(|cell| input.at(cell)).collect::<Vec<f64>>();
         let reduced =
             |input: &Input| column(input).iter().map(|stress| si.reduced(*stress)).collect::<Vec<f64>>();
@@ -214,7 +214,7 @@ impl BatchModel for Plugin {
             [of_grains(&xx), of_grains(&yy), xy]
         });
         let fabric_xy = start.fabric_xy.as_ref().map(column);
-        let known = msdd_plugin::Start {
+        let known = msdd_plugin::InitialColumns {
             porosity: &column(&start.porosity),
             fabric_index: &column(&start.fabric_index),
             fabric_xy: fabric_xy.as_deref(),

@@ -5,7 +5,7 @@ use crate::status::{Failure, utf8};
 use ::msdd_surrogate::spheres::model::Answers;
 use ::msdd_surrogate::spheres::readout::GAS_RANGE;
 use ::msdd_surrogate::spheres::tensor::Tensor;
-use msdd_beds::effective::{BedMaterial, BedState, LEAST_NUMBER, LEAST_RATIO};
+use msdd_beds::effective::{BedMaterial, BedState, MIN_NUMBER, MIN_RATIO};
 use msdd_beds::gas::Gas;
 use msdd_beds::named_gases::GasName;
 use msdd_beds::radiation::{Dark, black, part};
@@ -40,13 +40,13 @@ pub(crate) struct Conductivity {
 }
 
 // Below the law's range the closure goes on from its end.
-const _: () = assert!(GAS_RANGE[0] == LEAST_NUMBER);
+const _: () = assert!(GAS_RANGE[0] == MIN_NUMBER);
 
 /// Solid fraction of a bed beside a wall, which hardly matters for the part of radiation in its conductivity.
-const USUAL_SOLID: f64 = 0.6;
+const REFERENCE_SOLID: f64 = 0.6;
 
 /// Least number of contacts per sphere of a packing that bears load.
-const LEAST_CONTACTS: f64 = 2.0;
+const MIN_CONTACTS: f64 = 2.0;
 
 /// A value within its range.
 pub(crate) fn ranged(name: &str, value: f64, [low, high]: [f64; 2], allowed: &str) -> Result<f64, Failure> {
@@ -135,7 +135,7 @@ impl Material {
         let Some(gas) = self.bed.gas_at(temperature) else {
             return Ok(GasThere { number: GAS_RANGE[1], outside: false, gas: None, temperature });
         };
-        if self.bed.ratio(&gas) < LEAST_RATIO {
+        if self.bed.ratio(&gas) < MIN_RATIO {
             let least =
                 format!("at least that of the gas, which is {:.4} at {temperature} K", gas.conductivity);
             return Err(Failure::number("material.conductivity", self.bed.solid.conductivity, least));
@@ -153,7 +153,8 @@ impl Material {
         }
         let gas = self.bed.gas_at(temperature).map_or(0.0, |gas| gas.conductivity);
         let black = black(temperature, 2.0 * self.bed.radius);
-        let bed = Dark { conductivity, solid: self.bed.solid.conductivity, gas, solid_fraction: USUAL_SOLID };
+        let bed =
+            Dark { conductivity, solid: self.bed.solid.conductivity, gas, solid_fraction: REFERENCE_SOLID };
         Radiating { emissivity: 0.0, black, bed: part(&bed, black, self.emissivity) }
     }
 
@@ -165,7 +166,7 @@ impl Material {
             &BedState {
                 pressure: (xx[cell] + yy[cell] + zz[cell]) / 3.0 * self.modulus(),
                 solid_fraction: answers.solid[cell],
-                coordination: answers.coordination[cell].max(LEAST_CONTACTS),
+                coordination: answers.coordination[cell].max(MIN_CONTACTS),
                 gas: answers.gas[cell],
             },
         );

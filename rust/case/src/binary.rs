@@ -19,7 +19,7 @@ pub fn text_of(file: &Path) -> Option<String> {
 /// The bytes of a file, or those of the packed file beside it.
 pub fn read(file: &Path) -> Option<Vec<u8>> {
     let packed = file.with_file_name(format!("{}.gz", file.file_name()?.to_str()?));
-    let limit = msdd_files::MOST_BYTES;
+    let limit = msdd_files::MAX_BYTES;
     let mut bytes = Vec::new();
     match File::open(file) {
         Ok(open) => open.take(limit).read_to_end(&mut bytes).ok()?,

@@ -90,7 +90,7 @@ impl DiscModel {
         self.radii
     }
 
-    /// These grains for discrete elements: friction, stiffness ratio and damping are those of the training.
+    /// These grains for DEM: friction, stiffness ratio and damping are those of the training.
     pub fn material(&self, grains: &Grains) -> Material {
         Material { density: grains.density, young_modulus: grains.young_modulus, ..self.material.clone() }
     }

@@ -6,7 +6,7 @@ use crate::fields::{FieldKind, head, uniform};
 use crate::numbers::{plain, rounded};
 use crate::packing::{Packing, Spread};
 use crate::path;
-use crate::scene::Scene;
+use crate::scene::DiscCase;
 use crate::values::{compression_name, fill, values};
 use std::fs;
 use std::os::unix::fs::PermissionsExt;
@@ -68,7 +68,7 @@ pub fn check_folder(folder: &Path, force: bool) -> Result<PathBuf, CaseError> {
 }
 
 /// The files of the case. `checkout`: folder of MSDD in which the solver was built; `name`: name of the case folder.
-pub fn files(scene: &Scene, packing: &Packing, name: &str, checkout: &Path) -> Vec<File> {
+pub fn files(scene: &DiscCase, packing: &Packing, name: &str, checkout: &Path) -> Vec<File> {
     let values = values(scene, packing, name, checkout);
     let filled = |template: &str| fill(template, &values);
     let foam = |path, class: &str, template: &str| File::foam(path, class, &filled(template));

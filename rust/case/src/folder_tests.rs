@@ -5,7 +5,7 @@ use crate::Case;
 use crate::scenes_for_tests::{discs, text};
 use msdd_rve::Compression;
 
-fn made(scene: &Scene) -> Vec<File> {
+fn made(scene: &DiscCase) -> Vec<File> {
     let spread = |mean: f64| Spread { mean, deviation: 0.01 * mean };
     let packing = Packing {
         boxes: 4,
@@ -27,7 +27,7 @@ fn the_reference_reads_what_is_written_and_refuses_gravity_and_heat_sources() {
         return;
     }
     let folder = std::env::temp_dir().join(format!("msdd-case-{}", std::process::id()));
-    let files = made(&Scene { heat_source: Some(3000.0), tolerance: Some(0.05), ..discs() });
+    let files = made(&DiscCase { heat_source: Some(3000.0), tolerance: Some(0.05), ..discs() });
     write(&folder, &files).unwrap();
     for (path, words) in [
         ("system/controlDict", "spaceProbes"),

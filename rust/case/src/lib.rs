@@ -21,7 +21,7 @@
 //! | [`path`] | paths that OpenFOAM can work with |
 //! | [`numbers`] | numbers as a person writes them |
 //! | [`values`] | values in these files, as text |
-//! | [`check`](mod@check) | what is missing, out of range or doubtful before a run |
+//! | [`check`](mod@check) | what is missing, out of range or warned before a run |
 #![forbid(unsafe_code)]
 
 mod binary;

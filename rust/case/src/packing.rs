@@ -1,4 +1,4 @@
-//! The initial state of a new case: means over small periodic boxes of its grains, packed by discrete elements.
+//! The initial state of a new case: means over small periodic boxes of its grains, packed by DEM.
 
 use crate::CaseError;
 use crate::disc_model::DiscModel;
@@ -8,7 +8,7 @@ use msdd_rve::message::number;
 use msdd_rve::{
     Averages, Boundary, Compression, PackingSpec, Preparation, RegionKind, Relaxation, homogenise, pack_as,
 };
-use msdd_surrogate::surrogate::{Answer, Known};
+use msdd_surrogate::surrogate::{Answer, InitialData};
 use rayon::prelude::*;
 
 pub use crate::disc_model::{PACKING_FRICTION, POROSITIES};
@@ -22,11 +22,11 @@ const PRESSURE_TOLERANCE: f64 = 0.01;
 /// Largest number of rounds of packing to find the porosity with the wanted pressure.
 const ROUNDS: usize = 8;
 /// Slope of η over √p̃, from the packings of the shipped model.
-const USUAL_SLOPE: f64 = -0.47;
+const REFERENCE_SLOPE: f64 = -0.47;
 
 /// The quantity that the initial packing has to have.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Start {
+pub enum InitialPacking {
     /// η [-], overlaps counted once.
     Porosity(f64),
     /// p \[Pa\], compression positive.
@@ -88,15 +88,17 @@ pub struct Effort {
 /// [`CaseError::Rve`] when a packing fails.
 pub fn pack(
     discs: Discs,
-    start: Start,
+    start: InitialPacking,
     effort: Effort,
     progress: &(dyn Fn(usize, usize) + Sync),
 ) -> Result<Packing, CaseError> {
     discs.grains.check()?;
     check(discs, start)?;
     match start {
-        Start::Porosity(porosity) => boxes_of(discs, porosity, effort, &|done| progress(done, effort.boxes)),
-        Start::Pressure(pressure) => to_pressure(discs, pressure, effort, progress),
+        InitialPacking::Porosity(porosity) => {
+            boxes_of(discs, porosity, effort, &|done| progress(done, effort.boxes))
+        }
+        InitialPacking::Pressure(pressure) => to_pressure(discs, pressure, effort, progress),
     }
 }
 
@@ -104,18 +106,20 @@ pub fn pack(
 ///
 /// # Errors
 /// [`CaseError::Parameter`].
-pub fn check(discs: Discs, start: Start) -> Result<(), CaseError> {
+pub fn check(discs: Discs, start: InitialPacking) -> Result<(), CaseError> {
     let [least, most] = discs.model.porosities();
     match start {
-        Start::Porosity(porosity) if !(least..=most).contains(&porosity) => Err(CaseError::Parameter {
-            key: "porosity".to_string(),
-            value: number(porosity),
-            allowed: format!(
-                "{least} to {most}, the packings of discs that the model was trained with (in two dimensions; looser discs \
+        InitialPacking::Porosity(porosity) if !(least..=most).contains(&porosity) => {
+            Err(CaseError::Parameter {
+                key: "porosity".to_string(),
+                value: number(porosity),
+                allowed: format!(
+                    "{least} to {most}, the packings of discs that the model was trained with (in two dimensions; looser discs \
                  hardly touch, denser ones overlap too much)"
-            ),
-        }),
-        Start::Pressure(pressure) => {
+                ),
+            })
+        }
+        InitialPacking::Pressure(pressure) => {
             let [low, high] = discs.pressures();
             if (low..=high).contains(&pressure) {
                 return Ok(());
@@ -132,7 +136,7 @@ pub fn check(discs: Discs, start: Start) -> Result<(), CaseError> {
                 ),
             })
         }
-        Start::Porosity(_) => Ok(()),
+        InitialPacking::Porosity(_) => Ok(()),
     }
 }
 
@@ -151,7 +155,8 @@ impl Discs<'_> {
     /// The mean packing of a porosity, by the model.
     pub(crate) fn usual(&self, porosity: f64) -> Answer {
         let law = self.model.law();
-        let known = Known { porosity, fabric_index: usual_fabric(self.compression), ..Known::default() };
+        let known =
+            InitialData { porosity, fabric_index: usual_fabric(self.compression), ..InitialData::default() };
         law.evaluate(&law.initial_state(&known), 0.0)
     }
 
@@ -222,9 +227,9 @@ fn to_pressure(
         // Two packings of almost the same porosity may have rearranged: then their slope says nothing.
         let slope = match known.as_slice() {
             [a, b, ..] if a[1] != b[1] => {
-                ((a[0] - b[0]) / (a[1] - b[1])).clamp(2.0 * USUAL_SLOPE, 0.5 * USUAL_SLOPE)
+                ((a[0] - b[0]) / (a[1] - b[1])).clamp(2.0 * REFERENCE_SLOPE, 0.5 * REFERENCE_SLOPE)
             }
-            _ => USUAL_SLOPE,
+            _ => REFERENCE_SLOPE,
         };
         let [least, most] = discs.model.porosities();
         porosity = (known[0][0] + slope * (wanted - known[0][1])).clamp(least - 0.01, most + 0.01);

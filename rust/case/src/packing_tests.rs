@@ -21,13 +21,13 @@ fn packed_boxes_are_what_the_model_expects_at_any_size_and_stiffness_and_meet_a_
                 (Discs { grains, model: &model, compression }, Effort { boxes: 4, seed: 1, threads: 2 });
             (discs.expected(0.12), pack(discs, start, effort, &|_, _| ()).unwrap())
         };
-        let (expected, packing) = packed(Compression::Horizontal, Start::Porosity(0.12));
+        let (expected, packing) = packed(Compression::Horizontal, InitialPacking::Porosity(0.12));
         assert!((packing.porosity.mean - 0.12).abs() < 1e-3, "{packing:?}");
         let reduced = packing.pressure.mean / grains.stress_scale();
         assert!((reduced / expected - 1.0).abs() < 0.1, "{reduced} {expected}");
         assert!(packing.fabric_index.mean > 0.02 && packing.stress[0].mean > packing.stress[1].mean);
         let wanted = 0.05 * grains.stress_scale();
-        let (_, packing) = packed(Compression::Isotropic, Start::Pressure(wanted));
+        let (_, packing) = packed(Compression::Isotropic, InitialPacking::Pressure(wanted));
         assert!((packing.pressure.mean / wanted - 1.0).abs() < PRESSURE_TOLERANCE, "{packing:?}");
         assert_eq!(packing.stress[0].mean, packing.stress[1].mean);
     }

@@ -7,7 +7,7 @@ use msdd_beds::named_gases::GasName;
 use msdd_rve::message::number;
 
 /// Largest number of cells of a case; a run with more would take too long to be useful.
-pub const MOST_CELLS: usize = 4_000_000;
+pub const MAX_CELLS: usize = 4_000_000;
 
 /// Refuses a value that is not `good`; `key`: its name.
 ///
@@ -31,7 +31,7 @@ pub fn length(key: &str, value: f64, radius: f64, what: &str) -> Result<(), Case
 /// Numbers of cells along each direction.
 pub fn cells(along: &[usize]) -> Result<(), CaseError> {
     let all = along.iter().fold(1_usize, |product, &count| product.saturating_mul(count));
-    allow("cells", all as f64, (1..=MOST_CELLS).contains(&all), || format!("1 to {MOST_CELLS} in all"))
+    allow("cells", all as f64, (1..=MAX_CELLS).contains(&all), || format!("1 to {MAX_CELLS} in all"))
 }
 
 /// What a temperature of a bed of discs may be \[K\].

@@ -4,7 +4,7 @@ use crate::CaseError;
 use crate::disc_model::DiscModel;
 use crate::grains::Grains;
 use crate::numbers::rounded;
-use crate::packing::{self, Discs, Start};
+use crate::packing::{self, Discs, InitialPacking};
 use crate::ranges;
 use crate::walls::{self, WallOverTime};
 use msdd_dem::WallHeat;
@@ -31,7 +31,7 @@ pub enum Mechanics {
 
 /// All parameters of a new case. SI units.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Scene {
+pub struct DiscCase {
     /// Width and height of the box \[m\].
     pub size: [f64; 2],
     /// Cells along x and y.
@@ -44,7 +44,7 @@ pub struct Scene {
     pub material: String,
     pub grains: Grains,
     pub model: DiscModel,
-    pub start: Start,
+    pub start: InitialPacking,
     pub compression: Compression,
     pub mechanics: Mechanics,
     /// Heat released in the bed [W/m³], negative for a sink.
@@ -75,7 +75,7 @@ pub fn proposed_probes(size: [f64; 2]) -> Vec<[f64; 2]> {
     [near, 0.5 * size[0], size[0] - near].map(|x| [rounded(x, 6), rounded(0.5 * size[1], 6)]).to_vec()
 }
 
-impl Scene {
+impl DiscCase {
     /// Refuses values out of range; the error names the first of them.
     ///
     /// # Errors
@@ -149,8 +149,8 @@ impl Scene {
     /// about the initial porosity or pressure.
     pub fn diffusivity(&self) -> [f64; 2] {
         let porosity = match self.start {
-            Start::Porosity(porosity) => porosity,
-            Start::Pressure(pressure) => self.discs().porosity_at(pressure),
+            InitialPacking::Porosity(porosity) => porosity,
+            InitialPacking::Pressure(pressure) => self.discs().porosity_at(pressure),
         };
         let answer = self.discs().usual(porosity);
         let share = 0.5 * (answer.conductivity[0][0] + answer.conductivity[1][0]);
@@ -160,7 +160,7 @@ impl Scene {
     }
 
     /// Proposed end time L²/D \[s\], rounded to two digits: the time in which most of the heat has spread over the length
-    /// L = [`Scene::heat_way`].
+    /// L = [`DiscCase::heat_way`].
     pub fn proposed_end(&self) -> f64 {
         let way = self.heat_way();
         rounded(way * way / self.diffusivity()[0], 2)

@@ -8,12 +8,12 @@ use crate::scenes_for_tests::{discs, each_is_refused, walls};
 fn wishes_out_of_range_are_refused_with_key_value_and_range() {
     each_is_refused(
         &discs(),
-        Scene::check,
+        DiscCase::check,
         &[
             (|s| s.size[1] = f64::NAN, "height of the box = NaN"),
             (|s| s.walls[3] = parse_wall("0:300,5:-3").unwrap(), "top = -3, allowed: 0 to 1e5 K"),
             (|s| s.heat_source = Some(f64::INFINITY), "heat source = inf"),
-            (|s| s.start = Start::Porosity(f64::NAN), "porosity = NaN, allowed: 0.06 to 0.19"),
+            (|s| s.start = InitialPacking::Porosity(f64::NAN), "porosity = NaN, allowed: 0.06 to 0.19"),
         ],
     );
 }
@@ -55,7 +55,7 @@ fn proposals_follow_grains_walls_and_diffusion() {
     let (size, grains) = ([0.645, 0.215], PRESETS[0].grains);
     assert_eq!([proposed_cells(size, 5e-3), proposed_cells([2.15, 0.645], 1e-3)], [[30, 10], [100, 30]]);
     let walls = walls(["100", "50", "insulated", "insulated"]);
-    let mut scene = Scene { size, grains, walls, initial_temperature: 50.0, cells: [30, 10], ..discs() };
+    let mut scene = DiscCase { size, grains, walls, initial_temperature: 50.0, cells: [30, 10], ..discs() };
     // Left and right wall have a temperature: half the width. D = 0.30 100/(3000 0.9) m2/s.
     assert_eq!(scene.heat_way(), 0.3225);
     let end = scene.proposed_end();

@@ -4,10 +4,10 @@ use crate::CaseError;
 use crate::disc_model::DiscModel;
 use crate::folder::File;
 use crate::grains::PRESETS;
-use crate::packing::Start;
-use crate::scene::{Mechanics, Scene, parse_wall, proposed_cells, proposed_probes};
+use crate::packing::InitialPacking;
+use crate::scene::{DiscCase, Mechanics, parse_wall, proposed_cells, proposed_probes};
 use crate::spheres::material::MATERIALS;
-use crate::spheres::scene::{Lid, Scene as SphereScene};
+use crate::spheres::scene::{Lid, SphereCase};
 use crate::spheres::shape::Shape;
 use crate::spheres::start::Gas;
 use crate::walls::WallOverTime;
@@ -18,9 +18,9 @@ pub fn walls<const N: usize>(texts: [&str; N]) -> [WallOverTime; N] {
     texts.map(|text| parse_wall(text).unwrap())
 }
 
-pub fn discs() -> Scene {
+pub fn discs() -> DiscCase {
     let size = [0.2, 0.1];
-    Scene {
+    DiscCase {
         size,
         cells: proposed_cells(size, 1e-3),
         walls: walls(["350", "insulated", "0:293,60:350", "insulated"]),
@@ -28,7 +28,7 @@ pub fn discs() -> Scene {
         material: "steel".to_string(),
         grains: PRESETS[1].grains,
         model: DiscModel::shipped().unwrap(),
-        start: Start::Porosity(0.125),
+        start: InitialPacking::Porosity(0.125),
         compression: Compression::Horizontal,
         mechanics: Mechanics::Equilibrium,
         heat_source: None,
@@ -38,8 +38,8 @@ pub fn discs() -> Scene {
     }
 }
 
-pub fn spheres() -> SphereScene {
-    SphereScene {
+pub fn spheres() -> SphereCase {
+    SphereCase {
         shape: Shape::Cylinder { radius: 0.1, height: 0.4 },
         cells: vec![10, 24],
         walls: walls(["400", "293", "insulated"]).to_vec(),
@@ -53,7 +53,7 @@ pub fn spheres() -> SphereScene {
         mechanics: Mechanics::Equilibrium,
         lid: Lid::Presses,
         shell: None,
-        give: 0.0,
+        slack_layer: 0.0,
         wall_friction: 0.0,
         gravity: 0.0,
         heat_source: None,

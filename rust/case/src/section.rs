@@ -8,7 +8,7 @@ use std::collections::HashMap;
 const CONSTRAINTS: [&str; 8] =
     ["empty", "wedge", "symmetryPlane", "symmetry", "cyclic", "cyclicAMI", "processor", "cyclicACMI"];
 /// Cuts have at least this share of the cells of the one with the most.
-const LEAST_CUT: f64 = 0.25;
+const MIN_CUT: f64 = 0.25;
 /// Holes of a wedge below this share of its radius are closed.
 const THIN: f64 = 0.02;
 const AXES: [&str; 3] = ["x", "y", "z"];
@@ -59,7 +59,7 @@ impl View {
         let cuts: Vec<(Self, usize)> =
             outs.into_iter().map(cut).map(|view| (view.clone(), cells(&view))).collect();
         let most = cuts.iter().map(|cut| cut.1).max().unwrap_or(0) as f64;
-        cuts.into_iter().filter(|cut| cut.1 as f64 >= LEAST_CUT * most).map(|cut| cut.0).take(2).collect()
+        cuts.into_iter().filter(|cut| cut.1 as f64 >= MIN_CUT * most).map(|cut| cut.0).take(2).collect()
     }
 
     /// A point of the mesh in the plane: to the right, and upwards.

@@ -2,7 +2,7 @@
 
 use crate::numbers::{plain, rounded};
 use crate::packing::{Packing, RADIUS_RANGE, Spread};
-use crate::scene::{Mechanics, Scene, WALLS};
+use crate::scene::{DiscCase, Mechanics, WALLS};
 use crate::walls::WallOverTime;
 use msdd_dem::{Material, WallHeat};
 use msdd_rve::Compression;
@@ -23,7 +23,7 @@ const DISCS_COST: f64 = 4e-7;
 pub(crate) type Values = Vec<(&'static str, String)>;
 
 /// The values that replace `@key@` in the templates.
-pub(crate) fn values(scene: &Scene, packing: &Packing, name: &str, checkout: &Path) -> Values {
+pub(crate) fn values(scene: &DiscCase, packing: &Packing, name: &str, checkout: &Path) -> Values {
     let depth = scene.cell()[0].min(scene.cell()[1]);
     let mut values: Values = vec![
         (
@@ -71,7 +71,7 @@ pub(crate) fn times(end: f64, first_step: f64) -> Values {
     ]
 }
 
-fn mesh_values(scene: &Scene, packing: &Packing) -> Values {
+fn mesh_values(scene: &DiscCase, packing: &Packing) -> Values {
     let [width, height] = scene.size;
     let [cell_width, cell_height] = scene.cell();
     let grains = |area| grains_in(area, packing.porosity.mean, scene.grains.mean_radius);
@@ -96,7 +96,7 @@ pub fn grains_in(area: f64, porosity: f64, mean_radius: f64) -> f64 {
     area * (1.0 - porosity) / (PI * (low * low + low * high + high * high) / 3.0)
 }
 
-fn readme_values(scene: &Scene, packing: &Packing) -> Values {
+fn readme_values(scene: &DiscCase, packing: &Packing) -> Values {
     vec![
         ("wallRows", wall_rows(WALLS.into_iter().zip(&scene.walls))),
         ("material", scene.material.clone()),
@@ -141,7 +141,7 @@ pub fn discs_seconds(end: f64, period: f64, discs: f64) -> f64 {
 }
 
 /// Estimated duration of a discrete element simulation of the case, as text; from measurements with the paper's grains.
-fn discs_time(scene: &Scene, discs: f64) -> String {
+fn discs_time(scene: &DiscCase, discs: f64) -> String {
     let seconds = discs_seconds(
         scene.end_time,
         contact_period(&scene.grains.material(), scene.grains.mean_radius),
@@ -200,7 +200,7 @@ fn table(packing: &Packing) -> String {
     format!("| quantity | mean | scatter |\n|---|---|---|\n{}", rows.trim_end())
 }
 
-fn probes(scene: &Scene, depth: f64) -> String {
+fn probes(scene: &DiscCase, depth: f64) -> String {
     let z = plain(rounded(0.5 * depth, 3));
     let line = |[x, y]: &[f64; 2]| format!("            ({} {} {z})", plain(*x), plain(*y));
     scene.probes.iter().map(line).collect::<Vec<_>>().join("\n")

@@ -63,7 +63,7 @@ impl WallOverTime {
         matches!(self, Self::Flux(_)) || !self.temperatures().is_empty()
     }
 
-    /// The condition at `time` \[s\] for discrete elements; `None` for a coefficient or a flux, which they do not compute.
+    /// The condition at `time` \[s\] for DEM; `None` for a coefficient or a flux, which they do not compute.
     pub fn at(&self, time: f64) -> Option<WallHeat> {
         match self {
             Self::Steady(heat) => Some(*heat),
@@ -160,7 +160,7 @@ fn wall_heat(patch: &Dictionary) -> Result<WallOverTime, CaseError> {
             patch.check_keys(&[&["type", "gradient", "value"]])?;
             match patch.uniform("gradient")? {
                 0.0 => Ok(Steady(WallHeat::Insulated)),
-                // The heat flux would be K times the gradient, and discrete elements have no K of the bed.
+                // The heat flux would be K times the gradient, and DEM has no K of the bed.
                 other => Err(patch.refuse("gradient", &format!("uniform {other}"), "uniform 0")),
             }
         }

@@ -14,7 +14,7 @@
 //! The numbers are fitted ([`crate::calibrate`]) to reference scenes: those of discs by `msdd reference scenes --bands`, those of
 //! spheres by `msdd reference beds --bands`.
 
-use crate::bed::{Bed, Grains};
+use crate::bed::{BandInputs, Grains};
 use crate::quantity::Quantity;
 use crate::series::Series;
 use crate::trial::Outcome;
@@ -26,7 +26,7 @@ pub const LEVEL: f64 = 0.9;
 const BED: f64 = 1000.0;
 const WINDOW: f64 = 100.0;
 /// Least pressure whose share counts, as a share of that at the start.
-const LEAST_PRESSURE: f64 = 0.05;
+const MIN_PRESSURE: f64 = 0.05;
 
 /// Standard deviation of the model and of the packing per unit of the numbers that are fitted.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -58,7 +58,7 @@ pub struct Law {
     pub temperature: Numbers,
     pub pressure: Numbers,
     pub conductivity: Numbers,
-    /// `None` of spheres, of which no discrete elements tell it.
+    /// `None` of spheres, of which no DEM results exist.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub displacement: Option<Numbers>,
     /// For T and p: the root of the mean square of the error over bed and run stays with this probability ([`LEVEL`]) below this factor times
@@ -109,7 +109,7 @@ impl Law {
 
     /// What the model (0) or the packing (1) leaves open, root of the mean square over bed and run, with probability [`LEVEL`]
     /// [the unit of the quantity]; 0 for what the run does not give.
-    pub fn doubt(&self, quantity: Quantity, part: usize, lengths: &Lengths) -> f64 {
+    pub fn uncertainty(&self, quantity: Quantity, part: usize, lengths: &Lengths) -> f64 {
         let factor = self.request[usize::from(quantity != Quantity::Temperature)];
         let Some(numbers) = self.of(quantity) else { return 0.0 };
         let rms = lengths.map(quantity, |units| numbers.halves(units)[part]).rms();
@@ -128,7 +128,7 @@ pub fn sensitivity(base: &Outcome, more: &Outcome) -> Series {
 
 /// What the run gives for the bands.
 pub struct Lengths<'a> {
-    bed: &'a Bed,
+    bed: &'a BandInputs,
     run: &'a Outcome,
     /// Change of T with the logarithm of the conductivity [K].
     sensitivity: &'a Series,
@@ -138,7 +138,7 @@ pub struct Lengths<'a> {
 }
 
 impl<'a> Lengths<'a> {
-    pub fn new(bed: &'a Bed, run: &'a Outcome, sensitivity: &'a Series) -> Self {
+    pub fn new(bed: &'a BandInputs, run: &'a Outcome, sensitivity: &'a Series) -> Self {
         let gradient = run.series(Quantity::Temperature).values.iter().map(|row| bed.gradient(row)).collect();
         let mut largest = 0.0f64;
         let strain = run.strain.values.iter().map(|row| {
@@ -180,7 +180,7 @@ impl<'a> Lengths<'a> {
 
     /// The pressure of whose size the band at a point is a share, for a value there.
     pub fn pressure_size(&self, value: f64, point: usize) -> f64 {
-        self.start(point).map_or(value, |start| value.max(LEAST_PRESSURE * start))
+        self.start(point).map_or(value, |start| value.max(MIN_PRESSURE * start))
     }
 
     fn start(&self, point: usize) -> Option<f64> {
@@ -191,7 +191,7 @@ impl<'a> Lengths<'a> {
     fn relative(&self, size: f64, time: usize, point: usize) -> Option<Units> {
         let start = self.start(point)?.max(f64::MIN_POSITIVE);
         let now = self.run.values.get(&Quantity::Pressure)?.values.get(time)?.get(point)?;
-        let change = (now.max(LEAST_PRESSURE * start) / start).ln().abs();
+        let change = (now.max(MIN_PRESSURE * start) / start).ln().abs();
         Some(Units { model: change * size, packing: vec![self.of_window(size)] })
     }
 
@@ -245,7 +245,8 @@ mod tests {
     #[test]
     fn units_of_all_quantities() {
         let neighbours = vec![([0, 1], 0, 5.0)];
-        let bed = Bed { kind: Grains::Discs, grains: 250.0, mean_radius: 0.1, window: 25.0, neighbours };
+        let bed =
+            BandInputs { kind: Grains::Discs, grains: 250.0, mean_radius: 0.1, window: 25.0, neighbours };
         let (run, sensitivity) = (run(), series(&[&[0.0, 0.0], &[0.0, -7.0]]));
         let lengths = Lengths::new(&bed, &run, &sensitivity);
         let at = |quantity, point| lengths.units(quantity, 1, point);
@@ -260,7 +261,7 @@ mod tests {
         assert_eq!(at(Quantity::DisplacementY, 0), Some(Units { model: 5.0, packing: vec![0.1 * 0.02] }));
         assert_eq!(at(Quantity::DisplacementY, 1), None);
         assert_eq!(at(Quantity::ConductivityYy, 0), None);
-        let spheres = Bed { kind: Grains::Spheres, ..bed.clone() };
+        let spheres = BandInputs { kind: Grains::Spheres, ..bed.clone() };
         let lengths = Lengths::new(&spheres, &run, &sensitivity);
         let units = lengths.units(Quantity::ConductivityXx, 1, 0);
         assert_eq!(units, Some(Units { model: 2.0, packing: vec![4.0] }));

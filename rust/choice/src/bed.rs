@@ -24,7 +24,7 @@ impl Grains {
 
 /// What the bands need to know of a bed.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Bed {
+pub struct BandInputs {
     pub kind: Grains,
     /// Number of grains.
     pub grains: f64,
@@ -36,7 +36,7 @@ pub struct Bed {
     pub neighbours: Vec<([usize; 2], usize, f64)>,
 }
 
-impl Bed {
+impl BandInputs {
     /// Root of the mean square of the gradient over the points.
     pub fn gradient(&self, row: &[f64]) -> f64 {
         let mut sums = [(0.0, 0.0); 3];

@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 /// One value of one packing.
 #[derive(Clone, Debug)]
 pub struct Row {
-    /// Scene, and packing.
+    /// UserCase, and packing.
     pub scene: usize,
     pub packing: u64,
     /// What is the same for all packings of a scene: quantity, time, window.

@@ -50,7 +50,7 @@ impl Base {
 }
 
 /// What the coarse mesh shows of one direction.
-pub struct Known {
+pub struct DirectionErrors {
     /// Number of the direction, and the cells of the user's mesh along it.
     direction: usize,
     cells: usize,
@@ -69,7 +69,7 @@ pub struct Chosen {
     pub missed: Option<Each>,
 }
 
-impl Known {
+impl DirectionErrors {
     /// Compares the coarse mesh with one of half the cells along a direction, and with a single cell if that changes no more
     /// than `drop` [% of the range of T].
     ///

@@ -4,8 +4,8 @@ use crate::ChoiceError;
 use crate::bands::{Law, Lengths};
 use crate::found::{Differences, Values};
 use crate::quantity::Quantity;
-use crate::scene::Scene;
 use crate::trial::{Beyond, Outcome};
+use crate::user_case::UserCase;
 use msdd_case::numbers::plain;
 use msdd_files::write;
 use serde::{Deserialize, Serialize};
@@ -80,7 +80,7 @@ pub struct MeanBand {
 }
 
 /// The bands of a run, of the quantities that the law knows and the mesh has. `space`: error of its cells at points and times.
-pub fn bands(scene: &Scene, run: &Outcome, seen: &Differences, space: &Values, law: &Law) -> Vec<Band> {
+pub fn bands(scene: &UserCase, run: &Outcome, seen: &Differences, space: &Values, law: &Law) -> Vec<Band> {
     let lengths = Lengths::new(&scene.bed, run, &seen.sensitivity);
     let mut bands = Vec::new();
     for (&quantity, series) in &run.values {
@@ -138,7 +138,7 @@ pub fn means(bands: &[Band]) -> Vec<MeanBand> {
 }
 
 /// The table of bands. Where there is none, cells are empty and the last says why: `beyond`.
-pub fn table(scene: &Scene, bands: &[Band], beyond: &str) -> String {
+pub fn table(scene: &UserCase, bands: &[Band], beyond: &str) -> String {
     let mut text = HEAD.to_string();
     let join =
         |numbers: &[f64]| numbers.iter().map(|&number| rounded(number, 7)).collect::<Vec<_>>().join(",");
@@ -171,7 +171,7 @@ fn rounded(number: f64, digits: usize) -> String {
 /// # Errors
 /// [`ChoiceError::File`].
 pub fn write_table(
-    scene: &Scene,
+    scene: &UserCase,
     bands: &[Band],
     beyond: Option<&Beyond>,
     folder: &Path,
@@ -184,7 +184,7 @@ pub fn write_table(
 pub fn text(means: &[MeanBand], beyond: Option<&Beyond>) -> String {
     let mut text = beyond.map_or(String::new(), |Beyond { since, what }| {
         format!(
-            "No bands from {} s on: the run lies beyond what its model was compared with by discrete elements: {}.\n",
+            "No bands from {} s on: the run lies beyond what its model was compared with by DEM: {}.\n",
             plain(*since),
             what.join("; ")
         )

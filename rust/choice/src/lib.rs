@@ -2,7 +2,7 @@
 //!
 //! | module | what |
 //! |---|---|
-//! | [`scene`] | what of the user's case can be chosen: mesh, times, whether grains move |
+//! | [`user_case`] | what of the user's case can be chosen: mesh, times, whether grains move |
 //! | [`mirror`] | boxes of which one half is enough |
 //! | [`settings`] | one combination of choices |
 //! | [`quantity`] | what runs are compared in |
@@ -32,11 +32,11 @@ mod program;
 pub mod quantity;
 pub mod record;
 pub mod runs;
-pub mod scene;
 pub mod search;
 pub mod series;
 pub mod settings;
 pub mod trial;
+pub mod user_case;
 
 use std::path::PathBuf;
 

@@ -3,9 +3,9 @@
 use crate::ChoiceError;
 use crate::found::{Differences, Found, Share};
 use crate::interval::{self, MeanBand};
-use crate::scene::Scene;
 use crate::settings::{Level, Settings};
 use crate::trial::Beyond;
+use crate::user_case::UserCase;
 use msdd_case::numbers::plain;
 use msdd_files::{read_text, write};
 use serde::{Deserialize, Serialize};
@@ -66,12 +66,12 @@ impl Record {
     ///
     /// # Errors
     /// [`ChoiceError::File`].
-    pub fn write(&self, scene: &Scene, folder: &Path) -> Result<(), ChoiceError> {
+    pub fn write(&self, scene: &UserCase, folder: &Path) -> Result<(), ChoiceError> {
         write_json(&folder.join(FILE), self, true)?;
         Ok(write(&folder.join("README.md"), self.readme(scene, folder).as_bytes())?)
     }
 
-    fn readme(&self, scene: &Scene, folder: &Path) -> String {
+    fn readme(&self, scene: &UserCase, folder: &Path) -> String {
         let name = |path: &Path| path.file_name().unwrap_or_default().to_string_lossy().into_owned();
         let chosen = name(folder);
         format!(
@@ -102,7 +102,7 @@ impl Record {
     }
 
     /// The choice and the estimates in sentences and a table.
-    pub fn text(&self, scene: &Scene) -> String {
+    pub fn text(&self, scene: &UserCase) -> String {
         let mut text = format!("Chosen: {}.\n", sentence(&self.found.settings, scene, self.found.range));
         if let Some(warning) = &self.warning {
             let _ = writeln!(text, "Warning: {warning}.");
@@ -158,7 +158,7 @@ fn write_json(file: &Path, value: &impl Serialize, pretty: bool) -> Result<(), C
 }
 
 /// What a coarser mesh than that of the case means for profiles.
-fn profiles(settings: &Settings, scene: &Scene) -> Option<String> {
+fn profiles(settings: &Settings, scene: &UserCase) -> Option<String> {
     let coarser = scene.blocks.as_ref().ok()?.coarser(settings);
     let along: Vec<String> =
         coarser.iter().map(|(name, cells, own)| format!("{cells} along {name} instead of {own}")).collect();
@@ -171,7 +171,7 @@ fn profiles(settings: &Settings, scene: &Scene) -> Option<String> {
 }
 
 /// Settings as a sentence. `range`: of T \[K\].
-pub fn sentence(settings: &Settings, scene: &Scene, range: f64) -> String {
+pub fn sentence(settings: &Settings, scene: &UserCase, range: f64) -> String {
     let mesh = match &scene.blocks {
         Ok(blocks) => {
             let total = blocks.total(settings);

@@ -2,7 +2,7 @@
 
 use crate::ChoiceError;
 use crate::bands::{Law, Lengths, sensitivity};
-use crate::bed::Bed;
+use crate::bed::BandInputs;
 use crate::found::{Share, Tried};
 use crate::quantity::Quantity;
 use crate::series::Series;
@@ -11,7 +11,7 @@ use crate::trial::Outcome;
 
 /// What can be chosen.
 #[derive(Clone, Debug)]
-pub struct Wishes {
+pub struct SearchTarget {
     /// Wanted accuracy of T [% of its range].
     pub accuracy: f64,
     /// Wanted accuracy of p [% of its range], if it is asked for.
@@ -24,7 +24,7 @@ pub struct Wishes {
     pub moves: Option<bool>,
     /// Whether the conductivity may be constant.
     pub constant: bool,
-    pub bed: Bed,
+    pub bed: BandInputs,
     pub law: Law,
 }
 
@@ -42,7 +42,7 @@ pub type Run<'a> = dyn FnMut(&Settings, Option<f64>) -> Result<Outcome, ChoiceEr
 /// The runs so far.
 pub struct Runs<'a> {
     run: &'a mut Run<'a>,
-    wishes: &'a Wishes,
+    target: &'a SearchTarget,
     /// Range of T \[K\] and of p \[Pa\] over all runs.
     pub range: f64,
     pub pressure_range: f64,
@@ -50,8 +50,8 @@ pub struct Runs<'a> {
 }
 
 impl<'a> Runs<'a> {
-    pub fn new(wishes: &'a Wishes, run: &'a mut Run<'a>) -> Self {
-        Self { run, wishes, range: 0.0, pressure_range: 0.0, tried: Vec::new() }
+    pub fn new(target: &'a SearchTarget, run: &'a mut Run<'a>) -> Self {
+        Self { run, target, range: 0.0, pressure_range: 0.0, tried: Vec::new() }
     }
 
     /// Runs a combination and compares it with another run.
@@ -91,9 +91,9 @@ impl<'a> Runs<'a> {
 
     /// Of errors of T [K] and p [Pa].
     fn each(&self, temperature: f64, pressure: f64) -> Each {
-        let pressure = match self.wishes.pressure {
+        let pressure = match self.target.pressure {
             Some(wanted) if self.pressure_range > 0.0 => {
-                100.0 * pressure / self.pressure_range * self.wishes.accuracy / wanted
+                100.0 * pressure / self.pressure_range * self.target.accuracy / wanted
             }
             _ => 0.0,
         };
@@ -104,10 +104,10 @@ impl<'a> Runs<'a> {
     /// share of what is asked for; both for T and p; and the change of T with the logarithm of the conductivity.
     pub fn open(&self, base: &Outcome, other: &Outcome) -> (Vec<Share>, Each, Series) {
         let sensitivity = sensitivity(base, other);
-        let bed = &self.wishes.bed;
+        let bed = &self.target.bed;
         let lengths = Lengths::new(bed, base, &sensitivity);
         let part = |k: usize| {
-            let of = |quantity| self.wishes.law.doubt(quantity, k, &lengths);
+            let of = |quantity| self.target.law.uncertainty(quantity, k, &lengths);
             self.each(of(Quantity::Temperature), of(Quantity::Pressure))
         };
         let parts = [part(0), part(1)];

@@ -5,10 +5,10 @@
 //! orders of the methods carry these differences to the settings that are not run.
 
 use crate::bands::CONDUCTIVITY;
-use crate::cells::{Base, Chosen, Known, SAFETY, coarse_level, even_level};
+use crate::cells::{Base, Chosen, DirectionErrors, SAFETY, coarse_level, even_level};
 use crate::found::{Differences, Found, Share, difference};
 use crate::quantity::Quantity;
-use crate::runs::{Each, Run, Runs, Wishes, larger};
+use crate::runs::{Each, Run, Runs, SearchTarget, larger};
 use crate::settings::Settings;
 use crate::{ChoiceError, Missed};
 
@@ -48,10 +48,10 @@ fn time_order(moves: bool) -> f64 {
 ///
 /// # Errors
 /// [`ChoiceError::OutOfReach`] with the best that can be had; those of `run`, except where grains cannot move.
-pub fn find<'a>(wishes: &'a Wishes, run: &'a mut Run<'a>) -> Result<(Found, Differences), ChoiceError> {
-    let mut search = Search::begin(wishes, run)?;
+pub fn find<'a>(target: &'a SearchTarget, run: &'a mut Run<'a>) -> Result<(Found, Differences), ChoiceError> {
+    let mut search = Search::begin(target, run)?;
     if search.runs.range > 0.0 {
-        search.doubt()?;
+        search.uncertainty()?;
         search.half()?;
         search.motion()?;
         search.constant()?;
@@ -66,7 +66,7 @@ pub fn find<'a>(wishes: &'a Wishes, run: &'a mut Run<'a>) -> Result<(Found, Diff
 }
 
 struct Search<'a> {
-    wishes: &'a Wishes,
+    target: &'a SearchTarget,
     runs: Runs<'a>,
     base: Base,
     found: Found,
@@ -86,11 +86,11 @@ struct Steps {
 
 impl<'a> Search<'a> {
     /// Runs the coarse mesh.
-    fn begin(wishes: &'a Wishes, run: &'a mut Run<'a>) -> Result<Self, ChoiceError> {
-        let levels = wishes.cells.iter().map(|&cells| coarse_level(cells, false)).collect();
-        let moves = wishes.moves == Some(true);
+    fn begin(target: &'a SearchTarget, run: &'a mut Run<'a>) -> Result<Self, ChoiceError> {
+        let levels = target.cells.iter().map(|&cells| coarse_level(cells, false)).collect();
+        let moves = target.moves == Some(true);
         let settings = Settings::new(levels, TOLERANCE, moves);
-        let mut runs = Runs::new(wishes, run);
+        let mut runs = Runs::new(target, run);
         let outcome = runs.compare("coarse mesh", settings.clone(), None)?;
         let found = Found {
             settings: settings.clone(),
@@ -102,23 +102,23 @@ impl<'a> Search<'a> {
             notes: Vec::new(),
         };
         Ok(Self {
-            wishes,
+            target,
             runs,
             base: Base { settings, outcome },
             found,
             seen: Differences::default(),
             open: [0.0; 2],
-            accuracy: wishes.accuracy,
+            accuracy: target.accuracy,
             left_out: 0.0,
         })
     }
 
     /// What model and packing leave open sets the accuracy that is left for the numerical method.
-    fn doubt(&mut self) -> Result<(), ChoiceError> {
+    fn uncertainty(&mut self) -> Result<(), ChoiceError> {
         let more = Settings { conductivity: CONDUCTIVITY, ..self.base.settings.clone() };
         let more = self.runs.compare("more conductivity", more, Some(&self.base.outcome))?;
         (self.found.open, self.open, self.seen.sensitivity) = self.runs.open(&self.base.outcome, &more);
-        let asked = self.wishes.accuracy;
+        let asked = self.target.accuracy;
         if larger(self.open) > OPEN * asked {
             let missed = [0, 1].into_iter().filter(|&k| self.open[k] > OPEN * asked);
             let missed: Vec<Missed> = missed.map(|k| self.missed(k, self.open[k] / OFFERED)).collect();
@@ -129,7 +129,7 @@ impl<'a> Search<'a> {
             let reason = format!(
                 "model and packing leave {} open, for a bed of about {:.0} grains",
                 missed.iter().map(of).collect::<Vec<_>>().join(" and "),
-                self.wishes.bed.grains
+                self.target.bed.grains
             );
             return Err(ChoiceError::OutOfReach { missed, reason });
         }
@@ -139,13 +139,13 @@ impl<'a> Search<'a> {
 
     /// The wanted accuracy of T (0) or p (1) that is missed, with the best that can be had as a share of the accuracy of T.
     fn missed(&self, quantity: usize, best: f64) -> Missed {
-        let asked = [Some(self.wishes.accuracy), self.wishes.pressure][quantity].unwrap_or(f64::NAN);
-        Missed { key: KEYS[quantity], asked, best: best * asked / self.wishes.accuracy }
+        let asked = [Some(self.target.accuracy), self.target.pressure][quantity].unwrap_or(f64::NAN);
+        Missed { key: KEYS[quantity], asked, best: best * asked / self.target.accuracy }
     }
 
     /// The refusal of a search in which T and p need these accuracies of the numerical method [% of the range of T].
     fn out_of_reach(&self, needed: Each, reason: String) -> ChoiceError {
-        let asked = self.wishes.accuracy;
+        let asked = self.target.accuracy;
         let enough = self.accuracy.min(larger(needed));
         let best = |k: usize| {
             // What is open of the other one stays
@@ -159,14 +159,14 @@ impl<'a> Search<'a> {
 
     /// Whether half the box, or a quarter, is enough: if it mirrors, and a run of it gives what one of the whole box gives.
     fn half(&mut self) -> Result<(), ChoiceError> {
-        let halved = self.wishes.mirrors.clone();
+        let halved = self.target.mirrors.clone();
         if !halved.contains(&true) {
             return Ok(());
         }
-        let cells = &self.wishes.cells;
+        let cells = &self.target.cells;
         let level = |k: usize| if halved[k] { even_level(cells[k]) } else { self.base.settings.levels[k] };
         let levels = (0..cells.len()).map(level).collect();
-        let whole = Settings::new(levels, TOLERANCE, self.wishes.moves != Some(false));
+        let whole = Settings::new(levels, TOLERANCE, self.target.moves != Some(false));
         let half = Settings { halved: halved.clone(), ..whole.clone() };
         let tried = self.runs.compare("whole box", whole, None).and_then(|whole| {
             let part = self.runs.compare("part of the box", half, Some(&whole))?;
@@ -201,7 +201,7 @@ impl<'a> Search<'a> {
 
     /// Whether the grains move.
     fn motion(&mut self) -> Result<(), ChoiceError> {
-        if self.wishes.moves == Some(true) {
+        if self.target.moves == Some(true) {
             return Ok(());
         }
         let settings = Settings { moves: true, ..self.base.settings.clone() };
@@ -214,7 +214,7 @@ impl<'a> Search<'a> {
         };
         let each = self.runs.apart(&moving, &self.base.outcome);
         let percent = larger(each);
-        if self.wishes.moves.is_none() && percent > MECHANICS * self.accuracy {
+        if self.target.moves.is_none() && percent > MECHANICS * self.accuracy {
             self.base = Base { settings, outcome: moving };
         } else if percent > STAYING * self.accuracy {
             let reason = format!(
@@ -233,7 +233,7 @@ impl<'a> Search<'a> {
 
     /// Whether the conductivity may be constant: the mean over bed and run of that with the model. The grains then stay.
     fn constant(&mut self) -> Result<(), ChoiceError> {
-        if !self.wishes.constant || self.wishes.moves == Some(true) {
+        if !self.target.constant || self.target.moves == Some(true) {
             return Ok(());
         }
         let base = &self.base.outcome;
@@ -287,9 +287,10 @@ impl<'a> Search<'a> {
     fn cells(&mut self, steps: Steps) -> Result<(), ChoiceError> {
         let mut left = self.accuracy * (1.0 - TIME) - self.left_out;
         let mut directions = Vec::new();
-        for (direction, &cells) in self.wishes.cells.iter().enumerate() {
+        for (direction, &cells) in self.target.cells.iter().enumerate() {
             let cells = self.base.settings.own_cells(direction, cells);
-            let known = Known::new(&mut self.runs, &self.base, direction, cells, DROP * self.accuracy)?;
+            let known =
+                DirectionErrors::new(&mut self.runs, &self.base, direction, cells, DROP * self.accuracy)?;
             if known.single {
                 left -= known.error;
             }

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::bands::{Law, Numbers};
-use crate::bed::{Bed, Grains};
+use crate::bed::{BandInputs, Grains};
 use crate::found::Values;
 use crate::quantity::Quantity;
 use crate::series::Series;
@@ -20,7 +20,7 @@ fn law() -> Law {
 }
 
 /// A scene whose errors are known: `space[k]` at 1 cell along k, falling with the square; `time` at tolerance 1.
-struct Scene {
+struct KnownErrors {
     space: Vec<f64>,
     time: f64,
     motion: f64,
@@ -31,7 +31,7 @@ struct Scene {
     mirrors: Vec<bool>,
 }
 
-impl Scene {
+impl KnownErrors {
     fn error(&self, settings: &Settings) -> f64 {
         let cells = |k: usize| {
             let own = settings.levels[k].cells(settings.own_cells(k, self.cells[k]));
@@ -45,9 +45,9 @@ impl Scene {
 
     fn find(&self, accuracy: f64, moves: Option<bool>) -> Result<Found, ChoiceError> {
         let (kind, neighbours) = (Grains::Discs, Vec::new());
-        let bed = Bed { kind, grains: 1000.0, mean_radius: 1.0, window: 100.0, neighbours };
+        let bed = BandInputs { kind, grains: 1000.0, mean_radius: 1.0, window: 100.0, neighbours };
         let (cells, law) = (self.cells.clone(), law());
-        let wishes = Wishes {
+        let target = SearchTarget {
             accuracy,
             pressure: None,
             cells,
@@ -79,7 +79,7 @@ impl Scene {
                 warnings: Vec::new(),
             })
         };
-        Ok(find(&wishes, run)?.0)
+        Ok(find(&target, run)?.0)
     }
 }
 
@@ -96,7 +96,7 @@ fn refused(found: Result<Found, ChoiceError>) -> (f64, String) {
 
 #[test]
 fn the_true_error_is_within_the_request_and_no_finer_than_it_needs() {
-    let scene = Scene {
+    let scene = KnownErrors {
         space: vec![300.0, 100.0],
         time: 4.0,
         motion: 0.1,
@@ -119,7 +119,7 @@ fn the_true_error_is_within_the_request_and_no_finer_than_it_needs() {
 
 #[test]
 fn motion_counts_where_it_matters_and_where_the_user_says_so() {
-    let scene = Scene {
+    let scene = KnownErrors {
         space: vec![10.0],
         time: 1.0,
         motion: 4.0,
@@ -138,7 +138,7 @@ fn motion_counts_where_it_matters_and_where_the_user_says_so() {
 
 #[test]
 fn a_direction_along_which_nothing_changes_gets_one_cell() {
-    let scene = Scene {
+    let scene = KnownErrors {
         space: vec![300.0, 0.0],
         time: 1.0,
         motion: 0.0,
@@ -152,7 +152,7 @@ fn a_direction_along_which_nothing_changes_gets_one_cell() {
 
 #[test]
 fn a_request_out_of_reach_is_refused_with_the_best_that_can_be_had() {
-    let scene = Scene {
+    let scene = KnownErrors {
         space: vec![30_000.0],
         time: 1.0,
         motion: 0.0,
@@ -167,7 +167,7 @@ fn a_request_out_of_reach_is_refused_with_the_best_that_can_be_had() {
 
 #[test]
 fn what_model_and_packing_leave_open_is_not_asked_of_the_cells() {
-    let scene = |sensitivity| Scene {
+    let scene = |sensitivity| KnownErrors {
         space: vec![700.0],
         time: 1.0,
         motion: 0.0,
@@ -186,7 +186,7 @@ fn what_model_and_packing_leave_open_is_not_asked_of_the_cells() {
 
 #[test]
 fn the_conductivity_is_constant_where_that_changes_little_and_the_grains_stay() {
-    let scene = |constant| Scene {
+    let scene = |constant| KnownErrors {
         space: vec![10.0],
         time: 1.0,
         motion: 0.1,
@@ -206,7 +206,7 @@ fn the_conductivity_is_constant_where_that_changes_little_and_the_grains_stay() 
 
 #[test]
 fn half_of_a_box_that_mirrors_is_enough() {
-    let scene = Scene {
+    let scene = KnownErrors {
         space: vec![300.0, 100.0],
         time: 1.0,
         motion: 4.0,
@@ -218,17 +218,17 @@ fn half_of_a_box_that_mirrors_is_enough() {
     let found = scene.find(2.0, None).unwrap();
     assert_eq!(found.settings.halved, [true, false]);
     assert!(scene.error(&found.settings) <= 2.0 && found.total() <= 2.0);
-    let whole = Scene { mirrors: Vec::new(), ..scene };
+    let whole = KnownErrors { mirrors: Vec::new(), ..scene };
     let cells = |found: &Found| found.tried.iter().map(|tried| tried.cells).min().unwrap();
     assert!(cells(&found) < cells(&whole.find(2.0, None).unwrap()));
 }
 
-/// Asks for accuracies of T and p in a bed where p grows threefold, whose doubt of p is far above that of T. `error`: of p on the
+/// Asks for accuracies of T and p in a bed where p grows threefold, whose uncertainty of p is far above that of T. `error`: of p on the
 /// coarse mesh [% of its range].
 fn with_pressure(accuracy: f64, pressure: f64, error: f64) -> Result<Found, ChoiceError> {
     let (kind, neighbours) = (Grains::Discs, Vec::new());
-    let bed = Bed { kind, grains: 1e9, mean_radius: 1e-3, window: 1e6, neighbours };
-    let wishes = Wishes {
+    let bed = BandInputs { kind, grains: 1e9, mean_radius: 1e-3, window: 1e6, neighbours };
+    let target = SearchTarget {
         accuracy,
         pressure: Some(pressure),
         cells: vec![16],
@@ -262,7 +262,7 @@ fn with_pressure(accuracy: f64, pressure: f64, error: f64) -> Result<Found, Choi
             warnings: Vec::new(),
         })
     };
-    Ok(find(&wishes, run)?.0)
+    Ok(find(&target, run)?.0)
 }
 
 #[test]

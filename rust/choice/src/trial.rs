@@ -4,9 +4,9 @@ use crate::ChoiceError;
 use crate::mirror::{self, Mirror};
 use crate::program::foam;
 use crate::quantity::Quantity;
-use crate::scene::Scene;
 use crate::series::Series;
 use crate::settings::{Level, Settings};
+use crate::user_case::UserCase;
 use msdd_case::tables;
 use msdd_files::{Lock, list, read_text, write};
 use serde::{Deserialize, Serialize};
@@ -44,7 +44,7 @@ pub struct Outcome {
     pub seconds: f64,
     /// Processor time of the solver alone \[s\].
     pub processor: f64,
-    /// What lies beyond the values by which the model was compared with discrete elements.
+    /// What lies beyond the values by which the model was compared with DEM.
     pub beyond: Option<Beyond>,
     /// The solver's warnings at its start.
     pub warnings: Vec<String>,
@@ -90,7 +90,7 @@ impl Outcome {
 /// # Errors
 /// When files cannot be read or written, OpenFOAM cannot make the mesh or map the fields, or `folder` is somebody else's.
 pub fn make(
-    scene: &Scene,
+    scene: &UserCase,
     settings: &Settings,
     range: Option<f64>,
     purpose: Purpose,
@@ -129,7 +129,7 @@ pub fn make(
 }
 
 /// Scripts of the user's case, and the file that ParaView opens.
-fn accompany(scene: &Scene, folder: &Path) -> Result<(), ChoiceError> {
+fn accompany(scene: &UserCase, folder: &Path) -> Result<(), ChoiceError> {
     for name in ["Allrun", "Allclean"] {
         let (own, copy) = (scene.folder.join(name), folder.join(name));
         if own.is_file() {
@@ -144,13 +144,13 @@ fn accompany(scene: &Scene, folder: &Path) -> Result<(), ChoiceError> {
 ///
 /// # Errors
 /// When files cannot be read or written, or `folder` is somebody else's.
-pub fn plain(scene: &Scene, folder: &Path) -> Result<(), ChoiceError> {
+pub fn plain(scene: &UserCase, folder: &Path) -> Result<(), ChoiceError> {
     copy(scene, folder, &|_| String::new())?;
     link_mesh(scene, folder)
 }
 
 /// Copies the user's case without its mesh; `keys` are added at the end of the file of a name.
-fn copy(scene: &Scene, folder: &Path, keys: &dyn Fn(&str) -> String) -> Result<(), ChoiceError> {
+fn copy(scene: &UserCase, folder: &Path, keys: &dyn Fn(&str) -> String) -> Result<(), ChoiceError> {
     clear(folder)?;
     mark(folder)?;
     for part in [scene.start.as_str(), "constant", "system"] {
@@ -198,7 +198,7 @@ fn sweep(folder: &Path) -> Result<PathBuf, ChoiceError> {
     }
 }
 
-fn link_mesh(scene: &Scene, folder: &Path) -> Result<(), ChoiceError> {
+fn link_mesh(scene: &UserCase, folder: &Path) -> Result<(), ChoiceError> {
     link(&scene.folder.join("constant/polyMesh"), &folder.join("constant/polyMesh"))
 }
 
@@ -238,7 +238,12 @@ pub fn clear(folder: &Path) -> Result<(), ChoiceError> {
 ///
 /// # Errors
 /// [`ChoiceError::Run`] with the solver's message; [`ChoiceError::Read`] when its results cannot be read.
-pub fn run(scene: &Scene, settings: &Settings, folder: &Path, lock: &Lock) -> Result<Outcome, ChoiceError> {
+pub fn run(
+    scene: &UserCase,
+    settings: &Settings,
+    folder: &Path,
+    lock: &Lock,
+) -> Result<Outcome, ChoiceError> {
     let began = Instant::now();
     let log = foam(folder, Command::new("msddFoam").stdin(lock.handle()?))?;
     write(&folder.join("log.msddFoam"), log.as_bytes())?;
@@ -248,7 +253,7 @@ pub fn run(scene: &Scene, settings: &Settings, folder: &Path, lock: &Lock) -> Re
 }
 
 /// Turns displacements around at points whose image in the other half was run.
-fn turn_back(scene: &Scene, settings: &Settings, outcome: &mut Outcome) {
+fn turn_back(scene: &UserCase, settings: &Settings, outcome: &mut Outcome) {
     let halved = scene.halves(settings);
     for (k, quantity) in [Quantity::DisplacementX, Quantity::DisplacementY].into_iter().enumerate() {
         let Some(series) = outcome.values.get_mut(&quantity) else { continue };
@@ -303,7 +308,13 @@ pub fn read_outcome(folder: &Path, seconds: f64) -> Result<Outcome, ChoiceError>
 }
 
 /// Keys that are added at the end of a file of the case.
-fn overrides(scene: &Scene, settings: &Settings, range: Option<f64>, purpose: Purpose, name: &str) -> String {
+fn overrides(
+    scene: &UserCase,
+    settings: &Settings,
+    range: Option<f64>,
+    purpose: Purpose,
+    name: &str,
+) -> String {
     match name {
         "system/controlDict" => control(scene, settings, purpose),
         "system/fvSolution" => {
@@ -342,7 +353,7 @@ fn overrides(scene: &Scene, settings: &Settings, range: Option<f64>, purpose: Pu
 }
 
 /// Entry of an initial field on the mesh of a combination; none on the user's mesh, or where OpenFOAM maps the fields.
-fn averaged(scene: &Scene, settings: &Settings, field: &str) -> String {
+fn averaged(scene: &UserCase, settings: &Settings, field: &str) -> String {
     let Ok(blocks) = &scene.blocks else { return String::new() };
     let cells = blocks.counts_at(settings)[0];
     if scene.box_cells == Some(cells) {
@@ -352,11 +363,11 @@ fn averaged(scene: &Scene, settings: &Settings, field: &str) -> String {
 }
 
 /// When function objects of a trial run write what is compared; fields are not written.
-pub fn watched(scene: &Scene) -> String {
+pub fn watched(scene: &UserCase) -> String {
     format!("writeControl adjustableRunTime; writeInterval {:e};", scene.interval())
 }
 
-fn control(scene: &Scene, settings: &Settings, purpose: Purpose) -> String {
+fn control(scene: &UserCase, settings: &Settings, purpose: Purpose) -> String {
     let displacement = if settings.moves { " D" } else { "" };
     let span = scene.end - scene.start_time;
     let first = scene.first_step.min(span / 1000.0);

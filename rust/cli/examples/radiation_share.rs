@@ -7,7 +7,7 @@
 
 use msdd_beds::named_gases::GasName;
 use msdd_case::spheres::material::{Emissivity, MATERIALS};
-use msdd_case::spheres::start::{Bed, Gas};
+use msdd_case::spheres::start::{Gas, PouredBed};
 use plotters::prelude::*;
 use std::error::Error;
 
@@ -37,15 +37,15 @@ fn main() -> Result<(), Box<dyn Error>> {
     draw(&file)
 }
 
-fn bed(diameter: f64, solid: f64) -> Result<Bed, Box<dyn Error>> {
+fn bed(diameter: f64, solid: f64) -> Result<PouredBed, Box<dyn Error>> {
     let mut spheres = MATERIALS[0].spheres();
     spheres.emissivity = Emissivity::Constant(EMISSIVITY);
     (spheres.grains.mean_radius, spheres.grains.thermal_conductivity) = (0.5 * diameter, solid);
-    Ok(Bed::new(spheres, STRESS)?)
+    Ok(PouredBed::new(spheres, STRESS)?)
 }
 
 /// \[%\]
-fn share(bed: &Bed, temperature: f64) -> f64 {
+fn share(bed: &PouredBed, temperature: f64) -> f64 {
     let start = bed.start(POROSITY, &Gas { name: GasName::Air, pressure: 101_325.0 }, temperature);
     100.0 * start.by_radiation / start.conductivity
 }

@@ -60,7 +60,7 @@ enum Command {
     /// Simulate a bed of spheres that was measured: pour, heat, compare.
     #[command(subcommand)]
     Bed(bed::Command),
-    /// Simulate the whole box of a case by discrete elements: the reference that the solver is compared with.
+    /// Simulate the whole box of a case by DEM: the reference that the solver is compared with.
     #[command(subcommand)]
     Reference(reference::Command),
     /// Measure speed and stability limits; prints JSON.
@@ -75,7 +75,7 @@ enum Command {
     Score(score::Arguments),
     /// Write the report on speed and accuracy, a page with figures; runs the simulations that are missing.
     Report(report::Arguments),
-    /// Compare the solver's results of the six cases with discrete elements: table, JSON and plot.
+    /// Compare the solver's results of the six cases with DEM: table, JSON and plot.
     Summary(summary::Arguments),
 }
 

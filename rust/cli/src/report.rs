@@ -21,7 +21,7 @@ run that was killed continues.
 
 With --case, the case is run on coarser and finer meshes, with larger and smaller tolerances, with grains that stay and that \
 move, and as msdd case solve chooses it; each run is compared with one that is 4 or 8 times finer in space and time, or, with \
---discs, with discrete elements of the same box. Copies stand beside the case while they run; the case itself stays as it is. \
+--discs, with DEM of the same box. Copies stand beside the case while they run; the case itself stays as it is. \
 It needs its mesh (blockMesh).
 
 Example: msdd report --case cases/HC --quick"
@@ -37,7 +37,7 @@ pub struct Arguments {
     /// paper.
     #[arg(long, value_name = "DIR")]
     case: Option<PathBuf>,
-    /// Compare the case with discrete elements: for a box along the axes in the plane, with insulated walls or walls with a
+    /// Compare the case with DEM: for a box along the axes in the plane, with insulated walls or walls with a
     /// temperature, and without sources of heat.
     #[arg(long, requires = "case")]
     discs: bool,

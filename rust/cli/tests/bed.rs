@@ -133,7 +133,7 @@ fn what_is_wrong_is_named_before_anything_is_computed() {
 
 /// The shipped case `column`, with few grains and for a short time.
 fn moving(folder: &Path) -> PathBuf {
-    let shipped = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../cases/column/elements.toml");
+    let shipped = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../cases/column/dem.toml");
     let small = [
         ("number = 20000", "number = 120"),
         ("base = [0.16, 0.16]", "base = [0.0256, 0.0256]"),
@@ -149,7 +149,7 @@ fn moving(folder: &Path) -> PathBuf {
     });
     let case = folder.join("moving");
     std::fs::create_dir_all(&case).unwrap();
-    std::fs::write(case.join("elements.toml"), text).unwrap();
+    std::fs::write(case.join("dem.toml"), text).unwrap();
     case
 }
 
@@ -164,14 +164,14 @@ fn packings_are_joined_and_a_run_goes_on_where_it_was_killed() {
     let output = run(&case, &outs[0], &["--seed", "2"]);
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     assert!(run(&case, &outs[1], &["--packings", "2"]).status.success());
-    let one = text(&outs[1], "elements-2.csv");
-    assert_eq!(one.split_once('\n').unwrap().1, text(&outs[0], "elements.csv"));
+    let one = text(&outs[1], "dem-2.csv");
+    assert_eq!(one.split_once('\n').unwrap().1, text(&outs[0], "dem.csv"));
     let cells = |text: &str, column: &str| -> Vec<f64> {
         let mut rows = text.lines().filter(|line| !line.starts_with('#'));
         let place = rows.next().unwrap().split(',').position(|name| name == column).unwrap();
         rows.map(|row| row.split(',').nth(place).unwrap().parse().unwrap()).collect()
     };
-    let files = ["elements-1.csv", "elements-2.csv", "elements.csv", "elements-scatter.csv"];
+    let files = ["dem-1.csv", "dem-2.csv", "dem.csv", "dem-scatter.csv"];
     for column in ["T_0.01", "p", "K", "coordination"] {
         let [a, b, mean, scatter] = files.map(|name| cells(&text(&outs[1], name), column));
         assert_eq!(mean.len(), 3);
@@ -182,18 +182,18 @@ fn packings_are_joined_and_a_run_goes_on_where_it_was_killed() {
         }
     }
     // As after a kill: one packing is there, the other and the mean are not.
-    let whole = text(&outs[1], "elements.csv");
-    std::fs::remove_file(outs[1].join("elements-1.csv")).unwrap();
-    std::fs::remove_file(outs[1].join("elements.csv")).unwrap();
+    let whole = text(&outs[1], "dem.csv");
+    std::fs::remove_file(outs[1].join("dem-1.csv")).unwrap();
+    std::fs::remove_file(outs[1].join("dem.csv")).unwrap();
     let told = String::from_utf8(run(&case, &outs[1], &["--packings", "2"]).stdout).unwrap();
     assert!(told.contains("packing 2 of 2, seed 2: known from") && !told.contains("seed 1: known"), "{told}");
-    assert_eq!(text(&outs[1], "elements.csv"), whole);
+    assert_eq!(text(&outs[1], "dem.csv"), whole);
     // Another case in the same folder of results is computed afresh.
-    let changed = text(&case, "elements.toml").replace("pressure = 20000", "pressure = 30000");
-    std::fs::write(case.join("elements.toml"), changed).unwrap();
+    let changed = text(&case, "dem.toml").replace("pressure = 20000", "pressure = 30000");
+    std::fs::write(case.join("dem.toml"), changed).unwrap();
     let told = String::from_utf8(run(&case, &outs[1], &["--packings", "2"]).stdout).unwrap();
     assert!(!told.contains("known from"), "{told}");
-    assert_ne!(text(&outs[1], "elements.csv"), whole);
+    assert_ne!(text(&outs[1], "dem.csv"), whole);
 }
 
 #[test]
@@ -202,9 +202,7 @@ fn packings_are_for_moving_beds_and_more_than_one() {
     let out = folder.0.join("out");
     let refused = run(&case(&folder.0, |text| text), &out, &["--packings", "2"]);
     assert_eq!(refused.status.code(), Some(1));
-    assert!(
-        String::from_utf8(refused.stderr).unwrap().contains("--packings, allowed: with an elements.toml")
-    );
+    assert!(String::from_utf8(refused.stderr).unwrap().contains("--packings, allowed: with an dem.toml"));
     let case = moving(&folder.0);
     assert_eq!(run(&case, &out, &["--packings", "1"]).status.code(), Some(2));
     let refused = run(&case, &out, &["--seed", "9223372036854775807", "--packings", "2"]);
@@ -212,11 +210,11 @@ fn packings_are_for_moving_beds_and_more_than_one() {
     assert!(String::from_utf8(refused.stderr).unwrap().contains("would be too large"));
     assert!(!out.exists());
     // A folder that cannot be made is told before anything is computed.
-    let under_a_file = case.join("elements.toml/out");
+    let under_a_file = case.join("dem.toml/out");
     for more in [&[][..], &["--packings", "2"]] {
         let refused = run(&case, &under_a_file, more);
         assert_eq!(refused.status.code(), Some(1));
         assert!(refused.stdout.is_empty());
-        assert!(String::from_utf8(refused.stderr).unwrap().contains("elements.toml/out"));
+        assert!(String::from_utf8(refused.stderr).unwrap().contains("dem.toml/out"));
     }
 }

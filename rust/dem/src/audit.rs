@@ -63,7 +63,7 @@ struct BoundaryForces {
 }
 
 /// The part of the state at the start of a step that the step overwrites.
-struct Start {
+struct StepStart {
     discs: Vec<Disc>,
     pairs: PairList,
     walls: [WallContacts; 4],
@@ -191,7 +191,7 @@ impl EnergyAudit {
 
     /// Adds the work of growth and walls, taken with the mean of the forces of the previous step and `forces`, which
     /// are then kept for the next step.
-    fn add_boundaries(&mut self, start: &Start, simulation: &Simulation, forces: BoundaryForces) {
+    fn add_boundaries(&mut self, start: &StepStart, simulation: &Simulation, forces: BoundaryForces) {
         for (k, (before, after)) in start.discs.iter().zip(&simulation.discs).enumerate() {
             let mean = 0.5 * (self.forces.growth[k] + forces.growth[k]);
             self.growth += mean * (after.radius - before.radius);
@@ -260,8 +260,8 @@ impl Simulation {
         }
     }
 
-    fn start(&self) -> Start {
-        Start {
+    fn start(&self) -> StepStart {
+        StepStart {
             discs: self.discs.clone(),
             pairs: self.neighbours.pairs.clone(),
             walls: self.neighbours.walls.clone(),
@@ -270,7 +270,7 @@ impl Simulation {
 
     /// Calls `visit` with every candidate contact as seen by the step that began at `start` and ended at `self`:
     /// centres and velocities of the start, radii and walls of the end.
-    fn for_each_strained(&self, start: &Start, mut visit: impl FnMut(Strained)) {
+    fn for_each_strained(&self, start: &StepStart, mut visit: impl FnMut(Strained)) {
         let (young_modulus, dt) = (self.material.young_modulus, self.time_step);
         let pairs = &self.neighbours.pairs;
         for (k, (&i, &j)) in pairs.i().iter().zip(pairs.j()).enumerate() {
@@ -299,7 +299,7 @@ impl Simulation {
         }
     }
 
-    fn for_each_strained_at(&self, side: Side, start: &Start, visit: &mut impl FnMut(Strained)) {
+    fn for_each_strained_at(&self, side: Side, start: &StepStart, visit: &mut impl FnMut(Strained)) {
         let (young_modulus, factor) = (self.material.young_modulus, self.material.wall_stiffness_factor);
         let ([nx, ny], [wall_vx, wall_vy]) = (side.normal(), self.walls.velocity(side));
         let contacts = &self.neighbours.walls[side as usize];

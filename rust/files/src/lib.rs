@@ -14,7 +14,7 @@ pub mod lock;
 pub mod part;
 
 pub use folder::list;
-pub use limit::{MOST_BYTES, read, read_text};
+pub use limit::{MAX_BYTES, read, read_text};
 pub use lock::Lock;
 pub use part::{Part, check_target, check_writable, write};
 

@@ -7,7 +7,7 @@ use std::path::Path;
 
 /// Largest number of bytes that is read of a file, 25 times that of the largest file so far. With a limit, a device without
 /// an end, or a small file that unpacks to a huge one, is an error, and does not use up the memory.
-pub const MOST_BYTES: u64 = 1 << 29;
+pub const MAX_BYTES: u64 = 1 << 29;
 
 /// Reads a file of at most `limit` bytes.
 ///
@@ -23,11 +23,11 @@ pub fn read(file: &Path, limit: u64) -> Result<Vec<u8>, FileError> {
     }
 }
 
-/// Reads a text of at most [`MOST_BYTES`].
+/// Reads a text of at most [`MAX_BYTES`].
 ///
 /// # Errors
 /// Those of [`read`]; [`FileError::Text`] for bytes that are not UTF-8.
 pub fn read_text(file: &Path) -> Result<String, FileError> {
-    String::from_utf8(read(file, MOST_BYTES)?)
+    String::from_utf8(read(file, MAX_BYTES)?)
         .map_err(|error| FileError::Text { file: file.to_path_buf(), byte: error.utf8_error().valid_up_to() })
 }

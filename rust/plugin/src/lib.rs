@@ -24,4 +24,4 @@ mod questions;
 
 pub use error::{PluginError, shown};
 pub use plugin::Plugin;
-pub use questions::{Answer, Start, Step, WallFriction};
+pub use questions::{Answer, InitialColumns, Step, WallFriction};

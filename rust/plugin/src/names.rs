@@ -4,7 +4,7 @@ use crate::library::text;
 use msdd_abi::msdd_plugin_v2;
 
 /// Largest number of state columns. A larger number is taken for a sign of a broken table.
-const MOST_COLUMNS: usize = 64;
+const MAX_COLUMNS: usize = 64;
 /// Largest number of characters of a name.
 const LONGEST_NAME: usize = 64;
 
@@ -16,8 +16,8 @@ const LONGEST_NAME: usize = 64;
 /// # Safety
 /// The table's texts are null or C strings, as many as its `state_size`.
 pub(crate) unsafe fn state_names(table: &msdd_plugin_v2) -> Result<Vec<String>, String> {
-    if !(2..=MOST_COLUMNS).contains(&table.state_size) {
-        return Err(format!("state_size = {}, allowed: 2 to {MOST_COLUMNS}", table.state_size));
+    if !(2..=MAX_COLUMNS).contains(&table.state_size) {
+        return Err(format!("state_size = {}, allowed: 2 to {MAX_COLUMNS}", table.state_size));
     }
     if table.state_names.is_null() {
         return Err("state_names is NULL".to_string());

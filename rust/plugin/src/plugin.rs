@@ -5,7 +5,7 @@ use crate::checks::{self, Question};
 use crate::columns::{Inputs, pointers, unwritten};
 use crate::library::{load, text};
 use crate::names::state_names;
-use crate::questions::{Answer, Columns, Start, Step, WallFriction};
+use crate::questions::{Answer, Columns, InitialColumns, Step, WallFriction};
 use msdd_abi::{msdd_plugin_start, msdd_plugin_step, msdd_plugin_v2};
 use std::ffi::c_char;
 use std::path::Path;
@@ -114,7 +114,7 @@ impl Plugin {
     ///
     /// # Panics
     /// When columns differ in length. The other functions panic then, too, and when columns are missing.
-    pub fn initial_state(&self, start: &Start) -> Result<Vec<Vec<f64>>, PluginError> {
+    pub fn initial_state(&self, start: &InitialColumns) -> Result<Vec<Vec<f64>>, PluginError> {
         let question = self.question("initial_state");
         let state = self.ask_start(start)?;
         question.columns(&question.state(&state))?;
@@ -125,7 +125,7 @@ impl Plugin {
         Ok(state)
     }
 
-    fn ask_start(&self, start: &Start) -> Result<Vec<Vec<f64>>, PluginError> {
+    fn ask_start(&self, start: &InitialColumns) -> Result<Vec<Vec<f64>>, PluginError> {
         let cells = start.porosity.len();
         let columns: Vec<&[f64]> = [start.porosity, start.fabric_index]
             .into_iter()

@@ -14,7 +14,7 @@ pub struct WallFriction {
 
 /// What is known of cells at the start: columns of equal length. Stress reduced, σ ℓ/(E r̄), compression positive.
 #[derive(Clone, Copy, Debug)]
-pub struct Start<'a> {
+pub struct InitialColumns<'a> {
     pub porosity: &'a [f64],
     pub fabric_index: &'a [f64],
     pub fabric_xy: Option<&'a [f64]>,

@@ -1,6 +1,6 @@
 //! Good and faulty plug-ins, compiled from `plain.c`: every fault has a message of its own.
 
-use msdd_plugin::{Plugin, PluginError, Start, Step};
+use msdd_plugin::{InitialColumns, Plugin, PluginError, Step};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
@@ -31,8 +31,13 @@ const STEP: Step = Step {
     wants_tangent: false,
 };
 
-const START: Start =
-    Start { porosity: &[0.1], fabric_index: &[0.2], fabric_xy: None, stress: None, conductivity: None };
+const START: InitialColumns = InitialColumns {
+    porosity: &[0.1],
+    fabric_index: &[0.2],
+    fabric_xy: None,
+    stress: None,
+    conductivity: None,
+};
 
 #[test]
 fn a_plain_plugin_answers() {
@@ -238,7 +243,7 @@ fn answers_that_no_grains_have_are_named_by_column_and_cell() {
     }
     let plugin = Plugin::load(&compiled("start", &["CHANGES_THE_START"])).expect("fit");
     let known = [0.1, 0.2];
-    let start = Start { porosity: &known, fabric_index: &known, ..START };
+    let start = InitialColumns { porosity: &known, fabric_index: &known, ..START };
     let message = plugin.initial_state(&start).expect_err("changed").to_string();
     assert!(
         message.contains("initial_state answered fabric_index[1] = 0.5, allowed: that given"),
@@ -346,7 +351,7 @@ fn inputs_are_copies() {
     let step = Step { state: &state, thermal_strain: &strain, strain: strains, wants_tangent: true };
     let answer = plugin.advance(&step).expect("good");
     assert_eq!(answer.state[0], [0.12, 0.13 - 0.01 + 0.01]);
-    let start = Start {
+    let start = InitialColumns {
         porosity: &porosity,
         fabric_index: &fabric,
         fabric_xy: Some(&xy),
@@ -365,12 +370,15 @@ fn a_start_passes_on_what_is_known() {
         +(start->stress_xx?10*start->stress_xx[0]+100*start->stress_yy[0]+1e3*start->stress_xy[0]:0)\
         +(start->conductivity_xx?1e4*start->conductivity_xx[0]+1e5*start->conductivity_yy[0]+1e6*start->conductivity_xy[0]:0)";
     let plugin = Plugin::load(&compiled("knows", &[names, sum])).expect("fit");
-    let known = |start: &Start| plugin.initial_state(start).expect("good")[2][0];
+    let known = |start: &InitialColumns| plugin.initial_state(start).expect("good")[2][0];
     let stress: Option<[&[f64]; 3]> = Some([&[2.0], &[3.0], &[4.0]]);
     let conductivity: Option<[&[f64]; 3]> = Some([&[5.0], &[6.0], &[7.0]]);
     assert_eq!(known(&START), 0.0);
-    assert_eq!(known(&Start { fabric_xy: Some(&[1.0]), ..START }), 1.0);
-    assert_eq!(known(&Start { stress, ..START }), 4320.0);
-    assert_eq!(known(&Start { conductivity, ..START }), 7_650_000.0);
-    assert_eq!(known(&Start { fabric_xy: Some(&[1.0]), stress, conductivity, ..START }), 7_654_321.0);
+    assert_eq!(known(&InitialColumns { fabric_xy: Some(&[1.0]), ..START }), 1.0);
+    assert_eq!(known(&InitialColumns { stress, ..START }), 4320.0);
+    assert_eq!(known(&InitialColumns { conductivity, ..START }), 7_650_000.0);
+    assert_eq!(
+        known(&InitialColumns { fabric_xy: Some(&[1.0]), stress, conductivity, ..START }),
+        7_654_321.0
+    );
 }

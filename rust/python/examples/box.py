@@ -1,4 +1,4 @@
-"""A box of grains, packed and heated by discrete elements, beside the surrogate model's answer for the same box.
+"""A box of grains, packed and heated by DEM, beside the surrogate model's answer for the same box.
 
     python3 box.py [GRAINS]                      # number of grains, 500 unless given
 """

@@ -10,7 +10,7 @@
     bed = msdd.load_spheres()                                     # law of packings of spheres with gas
     step = bed.advance(steel, bed.initial_state(steel, solid_fraction=0.6, stress=1e4), thermal_strain=1e-4)
 
-    box = msdd.pack(discs=500, porosity=0.13)                     # discrete elements
+    box = msdd.pack(discs=500, porosity=0.13)                     # DEM
     box.strain(thermal=0.01)
     box.average().conductivity_network_xx
 

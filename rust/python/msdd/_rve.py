@@ -1,4 +1,4 @@
-"""Boxes of grains by discrete elements: packed, strained and averaged."""
+"""Boxes of grains by DEM: packed, strained and averaged."""
 
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
 //! Errors of solver runs against the reference: each run starts from the fields of one packing and is compared with that
-//! packing's discrete elements; the error of a case is the largest, over time, of the mean difference over the packings.
+//! packing's DEM; the error of a case is the largest, over time, of the mean difference over the packings.
 
 use crate::ReferenceError;
 use crate::packings::{GRAIN_CONDUCTIVITY, Reference, pressure_range, temperature_range};
@@ -20,12 +20,12 @@ pub struct FieldError {
     pub rms_inner: f64,
     /// Largest of any sub-region, with its sign.
     pub worst: f64,
-    /// Means over the box, and standard deviations over the sub-regions: solver, discrete elements.
+    /// Means over the box, and standard deviations over the sub-regions: solver, DEM.
     pub means: [f64; 2],
     pub deviations: [f64; 2],
 }
 
-/// Errors of one configuration in one case. Signed: solver minus discrete elements.
+/// Errors of one configuration in one case. Signed: solver minus DEM.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Errors {
     /// Errors of T at P1, P2, P3 [% of the range].

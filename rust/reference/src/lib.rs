@@ -1,4 +1,4 @@
-//! The reference: simulates all grains in the box of a case by discrete elements (section 3.2 of the paper), with the
+//! The reference: simulates all grains in the box of a case by DEM (section 3.2 of the paper), with the
 //! parameters from the solver's own case files.
 //!
 //! | module | what |

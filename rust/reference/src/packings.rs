@@ -1,4 +1,4 @@
-//! The committed runs by discrete elements of `cases/reference`, three packings for each case. The solver is compared with
+//! The committed runs by DEM of `cases/reference`, three packings for each case. The solver is compared with
 //! them.
 
 use crate::ReferenceError;
@@ -27,7 +27,7 @@ pub fn pressure_range(case: &str) -> f64 {
     }
 }
 
-/// Results of one case by discrete elements, one for each packing.
+/// Results of one case by DEM, one for each packing.
 #[derive(Clone)]
 pub struct Reference {
     pub case: String,

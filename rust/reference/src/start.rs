@@ -11,14 +11,14 @@ const SAME_PRESSURE: f64 = 0.1;
 
 /// Means over the cells of the fields in the folder `0` of a case.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Start {
+pub struct InitialMeans {
     /// η [-], overlaps counted once.
     pub porosity: f64,
     /// p \[Pa\], compression positive; `None` when the case leaves it to its surrogate.
     pub pressure: Option<f64>,
 }
 
-impl Start {
+impl InitialMeans {
     /// The start of a case; `None` before it has a porosity.
     ///
     /// # Errors
@@ -62,12 +62,13 @@ mod tests {
         let checkout = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
         let file = checkout.join("cases/reference/results/corner_seed11.json");
         let packing = Results::read(&file).unwrap().model;
-        let start = Start { porosity: packing.porosity + 0.001, pressure: Some(1.05 * packing.pressure) };
+        let start =
+            InitialMeans { porosity: packing.porosity + 0.001, pressure: Some(1.05 * packing.pressure) };
         assert_eq!(start.difference(&packing), None);
-        let loose = Start { pressure: Some(0.5 * packing.pressure), ..start };
+        let loose = InitialMeans { pressure: Some(0.5 * packing.pressure), ..start };
         let said = loose.difference(&packing).unwrap();
         assert!(said.contains("; the case starts with porosity 0.12") && said.contains(" Pa"), "{said}");
-        let unknown = Start { porosity: 0.15, pressure: None }.difference(&packing).unwrap();
+        let unknown = InitialMeans { porosity: 0.15, pressure: None }.difference(&packing).unwrap();
         assert!(unknown.ends_with("porosity 0.1500, the pressure of its surrogate"), "{unknown}");
     }
 }

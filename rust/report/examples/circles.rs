@@ -10,7 +10,7 @@ use msdd_rve::database::paths::{Steps, planned};
 use msdd_rve::database::plan::RampName;
 use msdd_rve::{Averages, Boundary, Compression, Material, PackingSpec, Preparation, Protocol};
 use msdd_rve::{Strains, follow, homogenise, pack_as, region::RegionKind};
-use msdd_surrogate::surrogate::{Answer, Increment, Known, Surrogate};
+use msdd_surrogate::surrogate::{Answer, Increment, InitialData, Surrogate};
 use msdd_surrogate::{kernel::LANES, models};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
@@ -125,7 +125,7 @@ fn discs(which: (f64, Compression), seed: u64) -> Vec<Run> {
 fn law(model: &dyn Surrogate, run: &Run) -> Vec<State> {
     let start = &run.states[0];
     let mut block = model
-        .initial_state(&Known {
+        .initial_state(&InitialData {
             porosity: start.porosity,
             fabric_index: start.fabric[0],
             fabric_xy: start.fabric[1],

@@ -1,4 +1,4 @@
-//! The report on speed and accuracy: runs of the solver and of the discrete elements as cached jobs, compared with the
+//! The report on speed and accuracy: runs of the solver and of DEM as cached jobs, compared with the
 //! committed reference. Written as `results/report.json` and as a single page that needs no other files.
 //!
 //! A module uses only modules above it in this table.
@@ -14,7 +14,7 @@
 //! | [`case`] | speed against accuracy for a case of the user's |
 //! | [`page`] | the page |
 //!
-//! Errors against the discrete elements are those of [`msdd_reference::compare`].
+//! Errors against DEM are those of [`msdd_reference::compare`].
 #![forbid(unsafe_code)]
 
 pub mod case;

@@ -12,13 +12,13 @@ pub const FAMILIES: [&str; 9] = [
     "constant conductivity",
     "online RVEs",
     "one-dimensional",
-    "discrete elements",
+    "DEM",
     "quoted from the paper",
 ];
 
 /// How a configuration's cost and error are known.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Known {
+pub enum CostSource {
     /// The configuration is run to the end for all packings.
     Run,
     /// It is run to this time \[s\] to measure its cost alone; the error is that of the configuration with this name.
@@ -28,7 +28,7 @@ pub enum Known {
     Answers(f64, String),
 }
 
-impl Known {
+impl CostSource {
     /// Name of the configuration whose error is used.
     pub fn borrowed(&self) -> Option<&str> {
         match self {
@@ -48,7 +48,7 @@ pub struct Configuration {
     pub cases: Vec<&'static str>,
     /// Whether its K is that of Eq. 9, an upper bound, which is compared with the same of the discs.
     pub affine: bool,
-    pub known: Known,
+    pub known: CostSource,
     /// Number of the report's packings that it is run for.
     pub packings: usize,
     /// Estimate of its processor time \[s\].
@@ -93,7 +93,7 @@ fn fixed(step: &str, guess: f64) -> Configuration {
         template: SolverJob::new("", 0).control(&format!("deltaT {step};")),
         cases: CHARTED.to_vec(),
         affine: false,
-        known: Known::Run,
+        known: CostSource::Run,
         packings: usize::MAX,
         guess,
     }
@@ -158,7 +158,7 @@ pub fn validated(quick: bool) -> Vec<Configuration> {
     list
 }
 
-/// All points of the chart except those of the discrete elements.
+/// All points of the chart except those of DEM.
 pub fn chart(quick: bool) -> Vec<Configuration> {
     let coarse = |base: Configuration, mesh: [usize; 2]| {
         let (name, family) = (format!("{}, {}x{}", base.name, mesh[0], mesh[1]), base.family);
@@ -180,7 +180,7 @@ pub fn chart(quick: bool) -> Vec<Configuration> {
         .change(|job| job.control("deltaT 0.1;"));
     (paper.affine, paper_coarse.affine) = (true, true);
     let mut segment = fixed("1e-4", 10.0).named("fixed steps 0.1 ms", FAMILIES[0]);
-    segment.known = Known::Segment(1.0, "fixed steps 1 ms".to_string());
+    segment.known = CostSource::Segment(1.0, "fixed steps 1 ms".to_string());
     segment = segment.change(|mut job| {
         job.end = 1.0;
         job
@@ -227,7 +227,7 @@ pub fn chart(quick: bool) -> Vec<Configuration> {
 /// of similar state; and one for every cell of the fine mesh, for which only the cost is estimated.
 fn online() -> Vec<Configuration> {
     let mut fine = all_cells("2e-3", 150.0).named("all cells, 100x30, one packing", FAMILIES[5]);
-    fine.known = Known::Answers(0.4, all_boxes().name);
+    fine.known = CostSource::Answers(0.4, all_boxes().name);
     fine = fine.change(|mut job| {
         job.end = 0.4;
         job
@@ -271,7 +271,7 @@ fn boxes(name: &str, keys: &str, coefficients: &str, guess: f64) -> Configuratio
     base
 }
 
-/// A run of a case by discrete elements on one thread, to `end` \[s\]. `step`: largest time step \[s\]; `None`: that of the
+/// A run of a case by DEM on one thread, to `end` \[s\]. `step`: largest time step \[s\]; `None`: that of the
 /// stability bound.
 pub fn elements(case: &str, end: f64, step: Option<f64>, limit: u64) -> Job {
     let mut arguments: Vec<String> = ["reference", "run", "--case", &format!("cases/{case}"), "--seed", "1"]
@@ -310,7 +310,7 @@ mod tests {
         let list = chart(false);
         for configuration in &list {
             if let Some(name) = configuration.known.borrowed() {
-                assert!(list.iter().any(|c| c.name == name && c.known == Known::Run), "{name}");
+                assert!(list.iter().any(|c| c.name == name && c.known == CostSource::Run), "{name}");
             }
         }
     }

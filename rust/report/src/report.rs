@@ -4,7 +4,7 @@ use crate::ReportError;
 use crate::failures::{self, Failures};
 use crate::jobs::execute::{Stamp, execute, sweep};
 use crate::jobs::pool::{self, Progress, Records};
-use crate::plan::{self, CHARTED, Known};
+use crate::plan::{self, CHARTED, CostSource};
 use crate::settings::Settings;
 use crate::studies::chart::{Cheapest, cheapest_of, elements, points, start_up};
 use crate::studies::convergence::{self, Convergence};
@@ -115,7 +115,7 @@ pub fn make(
     Ok(Made { report, references, runs, details, other_cases, known, judged })
 }
 
-/// Packs the box of the discrete elements unless its state file is there.
+/// Packs the box of DEM unless its state file is there.
 fn pack(settings: &Settings) -> Result<(), ReportError> {
     if settings.quick
         || !settings.run
@@ -137,7 +137,7 @@ fn run_all(
     for configuration in plan::chart(settings.quick) {
         for case in &configuration.cases {
             costs.push(configuration.asked(case, first));
-            if configuration.known == Known::Run {
+            if configuration.known == CostSource::Run {
                 let more = settings.seeds().iter().take(configuration.packings).skip(1);
                 rest.extend(more.map(|seed| configuration.asked(case, *seed)));
             }
@@ -175,7 +175,7 @@ fn left_out(quick: bool) -> Vec<String> {
         "The pressure of the discs in the inner region, in the charts and in the cases whose grains do not expand: that of the whole box is used there.",
     ];
     if quick {
-        list.push("Quick: one packing, few configurations, coarse meshes, no discrete elements.");
+        list.push("Quick: one packing, few configurations, coarse meshes, no DEM.");
     }
     list.into_iter().map(str::to_string).collect()
 }

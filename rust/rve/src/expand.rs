@@ -128,7 +128,7 @@ pub fn follow(
     }
     simulation.reset_strain();
     simulation.keep_last_good(KEEP_EVERY);
-    let start = Start::of(simulation);
+    let start = UnstrainedBox::of(simulation);
     let mut ramp = Ramp { stops: Vec::new(), failure: None };
     for &strains in path {
         match advance_to(simulation, strains, start, protocol) {
@@ -194,13 +194,13 @@ fn check_monotone(stops: &[f64]) -> Result<(), RveError> {
 
 /// The box at zero strain [m].
 #[derive(Clone, Copy)]
-struct Start {
+struct UnstrainedBox {
     width: f64,
     height: f64,
     shear_offset: f64,
 }
 
-impl Start {
+impl UnstrainedBox {
     fn of(simulation: &Simulation) -> Self {
         Self {
             width: simulation.walls.width(),
@@ -244,7 +244,7 @@ fn set_box_velocity(simulation: &mut Simulation, [dx, dy, ds]: [f64; 3], time: f
 fn advance_to(
     simulation: &mut Simulation,
     target: Strains,
-    start: Start,
+    start: UnstrainedBox,
     protocol: Protocol,
 ) -> Result<Stop, RveError> {
     let since = simulation.steps;
@@ -271,7 +271,7 @@ pub(crate) fn rest(
 fn strain_to(
     simulation: &mut Simulation,
     target: Strains,
-    start: Start,
+    start: UnstrainedBox,
     protocol: Protocol,
 ) -> Result<(), RveError> {
     loop {

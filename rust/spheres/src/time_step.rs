@@ -11,7 +11,7 @@ pub use msdd_engine::time_step::{Excess, SAFETY, StepChoice};
 /// the assembly jams.
 const FEWEST_CONTACTS: f64 = 4.0;
 /// Least overlap over the radius that these contacts are assumed to have.
-const LEAST_OVERLAP: f64 = 1e-6;
+const MIN_OVERLAP: f64 = 1e-6;
 
 /// Δt_max = 2 / √(max_i Σ_c (2 k_n + 5 k_t) / m_i) [s], the sum over the contacts of sphere i: Gershgorin's circles for
 /// the stiffness matrix over the masses. The 5 is 2 r²m/I of a sphere, for rotation against its neighbours. `speed`
@@ -62,7 +62,7 @@ fn collision_stiffness(law: &ContactLaw, sphere: &Sphere, speed: f64) -> f64 {
     let overlap = if law.hertz {
         let energy = 0.25 * sphere.mass * 4.0 * speed * speed;
         let spring = 0.4 * law.normal * effective_radius.sqrt();
-        libm::pow(energy / spring, 0.4).max(LEAST_OVERLAP * sphere.radius)
+        libm::pow(energy / spring, 0.4).max(MIN_OVERLAP * sphere.radius)
     } else {
         sphere.radius
     };

@@ -9,7 +9,7 @@
 
 use msdd_surrogate::kernel::{LANES, Lanes};
 use msdd_surrogate::models;
-use msdd_surrogate::surrogate::{Answer, Increment, Known, StateLanes, Surrogate};
+use msdd_surrogate::surrogate::{Answer, Increment, InitialData, StateLanes, Surrogate};
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
 
@@ -117,10 +117,10 @@ fn start(model: &dyn Surrogate, random: &mut ChaCha8Rng) -> StateLanes {
         let porosity = 0.125 + 0.065 * symmetric_unit(random);
         let pressure = (0.86 * (0.2 - porosity)) * (1.0 + 0.1 * symmetric_unit(random));
         let [along, across] = [0.25, 0.1].map(|ratio| ratio * pressure * symmetric_unit(random));
-        let known = Known {
+        let known = InitialData {
             porosity,
             reduced_stress: Some([pressure + along, pressure - along, across]),
-            ..Known::default()
+            ..InitialData::default()
         };
         model
             .initial_state(&known)

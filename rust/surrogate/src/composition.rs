@@ -2,7 +2,7 @@
 
 use crate::dataset::{Ramp, StateRow, strain_between};
 use crate::kernel::{LANES, Lanes};
-use crate::surrogate::{Answer, Known, MAX_STATE, StateLanes, Surrogate};
+use crate::surrogate::{Answer, InitialData, MAX_STATE, StateLanes, Surrogate};
 use serde::{Deserialize, Serialize};
 
 /// Strain of increment `k` of `count`, relative to the radii before it. The radii grow by equal amounts, so that the
@@ -33,7 +33,7 @@ pub fn conductivity(model: &dyn Surrogate, row: &StateRow) -> [f64; 2] {
 
 /// The model's state for a row of the database, in which all quantities are known.
 pub fn state_of(model: &dyn Surrogate, row: &StateRow) -> [f64; MAX_STATE] {
-    model.initial_state(&Known {
+    model.initial_state(&InitialData {
         porosity: row.porosity,
         fabric_index: row.fabric_index,
         fabric_xy: 0.0,

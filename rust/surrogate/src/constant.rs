@@ -6,7 +6,9 @@ use crate::document::{field, hash, json, schema};
 use crate::kernel::LANES;
 use crate::options::TrainingOptions;
 use crate::solid_fraction::SolidFraction;
-use crate::surrogate::{Answer, Doubt, Increment, Known, MAX_STATE, StateLanes, Surrogate, Tangent};
+use crate::surrogate::{
+    Answer, Increment, InitialData, MAX_STATE, StateLanes, Surrogate, Tangent, Uncertainty,
+};
 use serde::{Deserialize, Serialize};
 
 /// Name of the schema. Its number is increased when a reader of the old schema would misread the new one.
@@ -107,7 +109,7 @@ impl Surrogate for ConstantModel {
         &["porosity", "fabric_index"]
     }
 
-    fn initial_state(&self, known: &Known) -> [f64; MAX_STATE] {
+    fn initial_state(&self, known: &InitialData) -> [f64; MAX_STATE] {
         let mut state = [0.0; MAX_STATE];
         state[..2].copy_from_slice(&[known.porosity, known.fabric_index]);
         state
@@ -123,7 +125,7 @@ impl Surrogate for ConstantModel {
         };
     }
 
-    fn doubt(&self, _state: &[f64; MAX_STATE]) -> Option<Doubt> {
+    fn uncertainty(&self, _state: &[f64; MAX_STATE]) -> Option<Uncertainty> {
         None
     }
 

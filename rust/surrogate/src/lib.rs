@@ -20,7 +20,7 @@
 //! | [`training`] | the complete training of the paper's network |
 //! | [`scores`] | R² (Eq. 12) |
 //! | [`score`], [`composition`], [`noise`] | errors of a model on held-out packings; composed increments; noise floor |
-//! | [`compared`] | ranges of the beds by which the default models were compared with discrete elements |
+//! | [`compared`] | ranges of the beds by which the default models were compared with DEM |
 //! | [`drift`] | error of composed increments of the paper's network |
 //! | [`region`] | where the training states lie, and how much packings of equal state differ |
 //! | [`wall_friction`] | wall friction |

@@ -2,7 +2,7 @@
 
 use crate::document::{field, schema};
 use crate::options::TrainingOptions;
-use crate::surrogate::{Known, Surrogate};
+use crate::surrogate::{InitialData, Surrogate};
 use crate::training_data::TrainingData;
 use crate::{Model, SurrogateError, constant, increment, training};
 
@@ -44,7 +44,7 @@ pub const MODELS: [Kind; 3] = [
     Kind {
         name: "increment",
         about: "one law for thermal and mechanical strain: elastic energy, and sliding that remembers; 16 numbers of stress, 9 of porosity and fabric, 14 of each conductivity",
-        epochs: increment::training::USUAL_EPOCHS,
+        epochs: increment::training::DEFAULT_EPOCHS,
         schema: "msdd-increment-model-",
         train: |data, options| Ok(Box::new(increment::training::train(data, options)?)),
         read: |text| Ok(Box::new(increment::model::read(text)?)),
@@ -112,7 +112,7 @@ pub fn read(text: &str) -> Trained {
 fn check_answers(model: &dyn Surrogate) -> Result<(), SurrogateError> {
     for (porosity, [conductivity, stress]) in TESTS {
         for thermal in TEST_STRAINS {
-            let known = Known { porosity, ..Known::default() };
+            let known = InitialData { porosity, ..InitialData::default() };
             let answer = model.evaluate(&model.initial_state(&known), thermal);
             let along = |columns: &[crate::kernel::Lanes; 3]| [columns[0][0], columns[1][0]];
             for (key, values, ([least, most], allowed)) in [
@@ -160,7 +160,7 @@ mod tests {
             let again = read(&model.to_json()).expect("own text");
             assert_eq!((again.kind(), again.hash()), (listed.name, model.hash()));
             assert_eq!(again.to_json(), model.to_json());
-            let known = Known { porosity: 0.12, fabric_index: 0.02, ..Known::default() };
+            let known = InitialData { porosity: 0.12, fabric_index: 0.02, ..InitialData::default() };
             let (a, b) = (model.initial_state(&known), again.initial_state(&known));
             assert_eq!(model.evaluate(&a, 0.003), again.evaluate(&b, 0.003));
             assert_eq!(model.state_names()[..2], ["porosity", "fabric_index"]);

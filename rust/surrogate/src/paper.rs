@@ -4,7 +4,9 @@ use crate::increment::readout::CONDUCTIVITY_FLOOR;
 use crate::kernel::LANES;
 use crate::model::Model;
 use crate::options::TrainingOptions;
-use crate::surrogate::{Answer, Doubt, Increment, Known, MAX_STATE, StateLanes, Surrogate, Tangent};
+use crate::surrogate::{
+    Answer, Increment, InitialData, MAX_STATE, StateLanes, Surrogate, Tangent, Uncertainty,
+};
 
 impl Surrogate for Model {
     fn kind(&self) -> &'static str {
@@ -31,7 +33,7 @@ impl Surrogate for Model {
         &["porosity", "fabric_index"]
     }
 
-    fn initial_state(&self, known: &Known) -> [f64; MAX_STATE] {
+    fn initial_state(&self, known: &InitialData) -> [f64; MAX_STATE] {
         let mut state = [0.0; MAX_STATE];
         state[..2].copy_from_slice(&[known.porosity, known.fabric_index]);
         state
@@ -61,7 +63,7 @@ impl Surrogate for Model {
         }
     }
 
-    fn doubt(&self, _state: &[f64; MAX_STATE]) -> Option<Doubt> {
+    fn uncertainty(&self, _state: &[f64; MAX_STATE]) -> Option<Uncertainty> {
         None
     }
 
@@ -84,7 +86,10 @@ mod tests {
         let model = Model::builtin().expect("the shipped model is sound");
         let direct = Model::evaluate(&model, 0.13, 0.02, 0.001);
         let state = |porosity, fabric_index| {
-            Surrogate::initial_state(&model, &Known { porosity, fabric_index, ..Known::default() })
+            Surrogate::initial_state(
+                &model,
+                &InitialData { porosity, fabric_index, ..InitialData::default() },
+            )
         };
         let answer = Surrogate::evaluate(&model, &state(0.13, 0.02), 0.001);
         assert_eq!(answer.state[0][3], 0.13 + direct.delta_porosity);

@@ -4,10 +4,10 @@ use crate::scaling::Range;
 use serde::{Deserialize, Serialize};
 
 /// Coordinates of a state, each scaled to [-1, 1] over the training data; unused ones are zero.
-pub type Coordinates = [f64; MOST_COORDINATES];
+pub type Coordinates = [f64; MAX_COORDINATES];
 
 /// Largest number of coordinates.
-pub const MOST_COORDINATES: usize = 6;
+pub const MAX_COORDINATES: usize = 6;
 
 /// Region of the training states in scaled coordinates; it is unchanged by a turn by 90°.
 ///
@@ -38,7 +38,7 @@ fn normals(dimensions: usize) -> Vec<Coordinates> {
     let mut normals = Vec::new();
     let all = 3usize.pow(dimensions as u32);
     for code in 1..all {
-        let mut normal = [0.0; MOST_COORDINATES];
+        let mut normal = [0.0; MAX_COORDINATES];
         let (mut rest, mut count) = (code, 0);
         for component in normal.iter_mut().take(dimensions) {
             *component = [0.0, 1.0, -1.0][rest % 3];
@@ -90,7 +90,7 @@ impl Region {
 
     /// Number of half-spaces in this many dimensions.
     pub fn support_count(dimensions: usize) -> usize {
-        if dimensions <= MOST_COORDINATES { normals(dimensions).len() } else { 0 }
+        if dimensions <= MAX_COORDINATES { normals(dimensions).len() } else { 0 }
     }
 
     /// Distance by which a point lies outside of the region, measured to the half-space that it violates most; 0

@@ -36,7 +36,7 @@ pub type Tangent = [[Lanes; 3]; 3];
 
 /// What is known of a cell at the start. The stress is reduced: σ ℓ/(E r̄), ℓ = 1 m, compression positive.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Known {
+pub struct InitialData {
     /// η [-], overlaps counted once.
     pub porosity: f64,
     /// f = F_xx − F_yy [-].
@@ -84,7 +84,7 @@ impl Answer {
 
 /// Measures of how reliable the answer for a cell is.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Doubt {
+pub struct Uncertainty {
     /// Distance outside of the convex region of the training states, in half widths of the trained range; 0 inside.
     pub beyond_hull: f64,
     /// Distance to the nearest training state, over the spacing of the training states; above 1 there was none near the
@@ -140,7 +140,7 @@ pub trait Surrogate: Send + Sync {
     fn state_names(&self) -> &[&'static str];
     /// The state of a cell at the start. Of its quantities, at least η and f are known; those that are not known are
     /// set to the mean of packed states.
-    fn initial_state(&self, known: &Known) -> [f64; MAX_STATE];
+    fn initial_state(&self, known: &InitialData) -> [f64; MAX_STATE];
     /// Strains a block of cells. Finite inputs give finite answers; the answer of a lane depends on that lane alone. A model
     /// without [`Surrogate::has_tangent`] uses the thermal strain alone and leaves `tangent` as it is; others write it.
     fn advance(
@@ -152,7 +152,7 @@ pub trait Surrogate: Send + Sync {
     );
     /// Reliability of the answer for one cell; `None` when the model contains no data for it. Slower than an
     /// evaluation.
-    fn doubt(&self, state: &[f64; MAX_STATE]) -> Option<Doubt>;
+    fn uncertainty(&self, state: &[f64; MAX_STATE]) -> Option<Uncertainty>;
     /// Sum-of-areas solid fraction [-] of a packed state of this porosity.
     fn solid_fraction(&self, porosity: f64) -> f64;
     /// Least and largest porosity [-] of the packed states of the training.

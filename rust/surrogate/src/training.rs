@@ -66,13 +66,13 @@ pub fn train(
 }
 
 /// Largest number of samples: eight times the paper's, for 438 weights. More would only take longer.
-const MOST_SAMPLES: usize = 40_000;
+const MAX_SAMPLES: usize = 40_000;
 
 /// Samples of some ramps. When there are too many, only every second, third, … of them is taken, each with its mirror
 /// image.
 fn samples(ramps: &[Ramp]) -> Vec<Sample> {
     let samples: Vec<Sample> = ramps.iter().flat_map(Ramp::samples).collect();
-    let every = samples.len().div_ceil(MOST_SAMPLES).max(1);
+    let every = samples.len().div_ceil(MAX_SAMPLES).max(1);
     samples.chunks(2).step_by(every).flatten().copied().collect()
 }
 

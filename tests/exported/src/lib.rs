@@ -5,7 +5,7 @@
 use msdd_abi::{MSDD_PLUGIN_VERSION, msdd_plugin_start, msdd_plugin_step, msdd_plugin_v2};
 use msdd_surrogate::dataset::ConductivityKind;
 use msdd_surrogate::kernel::LANES;
-use msdd_surrogate::surrogate::{Answer, Increment, Known, MAX_STATE, Tangent};
+use msdd_surrogate::surrogate::{Answer, Increment, InitialData, MAX_STATE, Tangent};
 use msdd_surrogate::{Surrogate, models};
 use std::ffi::{CString, c_char};
 use std::sync::LazyLock;
@@ -87,7 +87,7 @@ unsafe extern "C" fn initial_state(start: *const msdd_plugin_start) -> i32 {
         let start = &*start;
         for cell in 0..start.cells {
             let optional = |column: *const f64| (!column.is_null()).then(|| column.add(cell).read());
-            let known = Known {
+            let known = InitialData {
                 porosity: start.porosity.add(cell).read(),
                 fabric_index: start.fabric_index.add(cell).read(),
                 fabric_xy: optional(start.fabric_xy).unwrap_or(0.0),
@@ -161,8 +161,8 @@ unsafe extern "C" fn spread(cells: usize, state: *const *const f64, result: *mut
     for cell in 0..cells {
         // SAFETY: see `initial_state`.
         unsafe {
-            let doubt = EXPORTED.model.doubt(&cell_state(state, cell));
-            result.add(cell).write(doubt.map_or(0.0, |doubt| doubt.conductivity_spread));
+            let uncertainty = EXPORTED.model.uncertainty(&cell_state(state, cell));
+            result.add(cell).write(uncertainty.map_or(0.0, |uncertainty| uncertainty.conductivity_spread));
         }
     }
     0

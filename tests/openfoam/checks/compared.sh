@@ -1,4 +1,4 @@
-# What a run is told beyond its model: values beyond those compared with discrete elements, radiation, forces of contacts, the approach
+# What a run is told beyond its model: values beyond those compared with DEM, radiation, forces of contacts, the approach
 # to a steady state, cells thinner than grains, smooth sides of tall beds, and friction that is not read.
 msdd=$(cd "$checkout" && realpath -m "${CARGO_TARGET_DIR:-target}")/release/msdd
 
@@ -22,16 +22,16 @@ warned() { # what, pattern of a warning of the start
 
 pebbles() { # lithium orthosilicate in helium, heated from inside between plates
     sphere_case pebbles --material lithium-orthosilicate --mean-radius 0.0005 --gas helium --box 0.02x0.006x0.006 --cells 10x1x1 \
-        --left 673 --right 673 --heat-source 1e7 --lid stays --give 0 --gravity 0 --wall-friction 0
+        --left 673 --right 673 --heat-source 1e7 --lid stays --slack-layer 0 --gravity 0 --wall-friction 0
     logged msddFoam
     warned "heat from inside was never compared: at the start" \
         'Beyond what the model was compared with: heat from inside of the bed up to 1e\+07 W/m3 \(compared: none\)'
     warned "nor spheres that conduct 10 times as well as the gas" '.*k of the grains over that of the gas down to 8\.[0-9]* \(compared: 38\.2 to 22400\)'
     said "the range is no clean bill" 'Range: the model was never asked .* made for, but the run lies beyond .*pressure up to [0-9.]+ MPa, 1[0-9][0-9] times the largest \(compared: 4\.32 kPa to 106 kPa\).*Nothing is known of its error there'
     said "mean force and Hertz pressure of the contacts, beyond the hardness" \
-        'Doubt: at a pressure of [0-9.]+ MPa the mean force of contacts is [0-9.]+ N, with a Hertz pressure of [0-9.]+ GPa; .* above the hardness of 1 GPa: grains would yield or crush'
+        'Warning: at a pressure of [0-9.]+ MPa the mean force of contacts is [0-9.]+ N, with a Hertz pressure of [0-9.]+ GPa; .* above the hardness of 1 GPa: grains would yield or crush'
     # Rumpf: pi d^2 p/(phi z), with the porosity and contacts of the end
-    check "which is Rumpf's force" bash -c "sed -n 's/.*Doubt: at a pressure of \([0-9.]*\) MPa the mean force of contacts is \([0-9.]*\) N.*/\1 \2/p' log \
+    check "which is Rumpf's force" bash -c "sed -n 's/.*Warning: at a pressure of \([0-9.]*\) MPa the mean force of contacts is \([0-9.]*\) N.*/\1 \2/p' log \
         | awk '{ f = 3.14159*1e-6*\$1*1e6/(0.6*5.5); exit !(\$2 > 0.8*f && \$2 < 1.25*f) }'"
     said "the bed is not steady at the end" 'Steady state: not reached; at the end T changes by up to [0-9.e-]+ K/s. What the bed takes up falls exponentially: it holds 9[0-9.]* % of the heat'
     check "for programs, too" grep -q '"compared": {"known": true, "beyond": \["thermal strain\|"compared": {"known": true, "beyond": \["pressure' postProcessing/msddFoam/summary.json
@@ -71,13 +71,13 @@ hot_alumina() { # what the closed form of rust/beds/src/radiation.rs adds in a v
         off=$(conductivity)
         check "without it the bed conducts $off in place of $on W/(m K)" is_within "$(echo "$on $off $expected" | awk '{ print ($1 - $2)/$3 }')" 0.99 1.01
         warned "which is said" "Radiation would add about $added W/\\(m K\\) at $t K to the .* and is not in the model; emissivity $emissivity \\(radiation is off\\)"
-        said "and at the end, too" "Doubt: Radiation would add about [0-9.]+ W/\\(m K\\) at $t K"
+        said "and at the end, too" "Warning: Radiation would add about [0-9.]+ W/\\(m K\\) at $t K"
     done
     rm -rf [1-9]*
     cp constant/granularProperties given
     sed -i '/radiation off/d; /emissivity/d' constant/granularProperties
     logged msddFoam
-    said "without an emissivity one is assumed" 'Doubt: Radiation would add .* emissivity 0.9, assumed'
+    said "without an emissivity one is assumed" 'Warning: Radiation would add .* emissivity 0.9, assumed'
     check "and the bed conducts as without radiation" [ "$(conductivity)" = "$off" ]
     rm -rf [1-9]*
     sed 's/emissivity .*/emissivity 1.2;/' given > constant/granularProperties

@@ -163,22 +163,22 @@ on_processes_and_restarted() {
         check "gas on $parts processes: temperatures differ by $e <= 1e-10" below "$e" 1e-10
     done
 }
-doubts() { # beyond what the flow is valid for the log says so, with the number
+warnings() { # beyond what the flow is valid for the log says so, with the number
     local what entries conductivity e
     while IFS='|' read -r what entries conductivity; do
-        flow_case flow-doubt 20 "temperatures two; $entries" 'endTime 1; deltaT 1; writeInterval 1;' '' 2
+        flow_case flow-warning 20 "temperatures two; $entries" 'endTime 1; deltaT 1; writeInterval 1;' '' 2
         sed -i "s/thermalConductivity 2;/thermalConductivity $conductivity;/" constant/granularProperties
         logged msddFoam
         said "$what" "$what"
     done <<-'END'
-	Doubt: Flow: the gas reaches|massFlux 60; gas air; drag KTA;|2
-	Doubt: Flow: the pressure drop reaches|massFlux 60; gas air; drag KTA;|2
-	Doubt: Flow: the Biot number h r/k_s of the grains reaches|massFlux 1; gas air;|0.05
-	Doubt: Flow: the mean free path of the gas reaches|massFlux 1e-4; gas air; gasPressure 10;|2
+	Warning: Flow: the gas reaches|massFlux 60; gas air; drag KTA;|2
+	Warning: Flow: the pressure drop reaches|massFlux 60; gas air; drag KTA;|2
+	Warning: Flow: the Biot number h r/k_s of the grains reaches|massFlux 1; gas air;|0.05
+	Warning: Flow: the mean free path of the gas reaches|massFlux 1e-4; gas air; gasPressure 10;|2
 	END
-    flow_case flow-doubt 20 "massFlux 1; exchangeCoefficient 1e5; temperatures one; accuracy 1; $thin_gas" 'endTime 1; deltaT 1; writeInterval 1;' '' 2
+    flow_case flow-warning 20 "massFlux 1; exchangeCoefficient 1e5; temperatures one; accuracy 1; $thin_gas" 'endTime 1; deltaT 1; writeInterval 1;' '' 2
     logged msddFoam
-    said "one temperature whose error is above 'accuracy' is in doubt" "allowed by 'accuracy': 1 %"
+    said "one temperature whose error is above 'accuracy' is in warning" "allowed by 'accuracy': 1 %"
     # The sides are 0.1 m apart: ten grains
     e=$(of_summary bed_width_in_grains)
     check "a bed between plates 0.1 m apart is $e grains wide, 10" is_within "$e" 9.999 10.001
@@ -296,7 +296,7 @@ one_temperature
 steady_states
 a_ramp
 pressure_drops
-doubts
+warnings
 upwards
 at_rest
 liquid

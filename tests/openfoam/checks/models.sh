@@ -11,7 +11,7 @@ check "constant: conductivity as in the network's start" test \
     "$(field "$work/serial/0.05/conductivity" | awk 'NR == 1 { printf "%.6f %.6f", $1, $4 }')"
 
 changed paper-network
-grains 'surrogate { model builtin:paper; outOfRegion { porosity { below clamp; } } }'
+grains 'surrogate { model builtin:paper; outOfTrainingRange { porosity { below clamp; } } }'
 mesh_is '12 6 1'
 logged msddFoam
 check "network: the paper's has no state beside porosity and fabric" test ! -e 1/elasticCompression

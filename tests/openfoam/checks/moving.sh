@@ -68,7 +68,7 @@ giving_is() { # what, time, displacement of the top, largest error
     check "grains that give way, $1: the bed follows by $3 m, to $e <= $4" below "$e" "$4"
 }
 walls_that_give() {
-    spheres_bed spheres-giving 'walls { ".*" { type frictionless; } top { type frictionless; give 50; displacement table ((0 (0 0 0)) (1 (0 0 -3e-4)) (2 (0 0 -1e-4))); } }'
+    spheres_bed spheres-giving 'walls { ".*" { type frictionless; } top { type frictionless; slackLayer 50; displacement table ((0 (0 0 0)) (1 (0 0 -3e-4)) (2 (0 0 -1e-4))); } }'
     cube 4
     moved_points
     controls 'endTime 2;'
@@ -92,7 +92,7 @@ walls_that_give() {
             a = $i < 0 ? -$i : $i; if (a > m) m = a; if (!(e <= w)) w = e } } END { print (NR > 3 && m > 0 ? w/m : "nan") }')
         check "grains that give way, four processes: $name differs by $e <= 1e-3 of the largest" below "$e" 1e-3
     done
-    spheres_bed spheres-giving-grown 'walls { ".*" { type frictionless; } top { type frictionless; give 50; } }'
+    spheres_bed spheres-giving-grown 'walls { ".*" { type frictionless; } top { type frictionless; slackLayer 50; } }'
     cube 4
     growth_is 4e-4
     logged msddFoam
@@ -226,7 +226,7 @@ wedge_and_sector() {
 }
 
 hot_column() { # folder, size of the spheres [m]: a column under its weight and a load that grows, heated from above; the floor gives by 0.02 m of bed
-    spheres_bed "$1" 'walls { ".*" { type frictionless; } bottom { type frictionless; give '"$(awk "BEGIN { print 0.01/$2 }")"'; } top { type pressure; pressure table ((0 5000) (8e4 20000)); } }'
+    spheres_bed "$1" 'walls { ".*" { type frictionless; } bottom { type frictionless; slackLayer '"$(awk "BEGIN { print 0.01/$2 }")"'; } top { type pressure; pressure table ((0 5000) (8e4 20000)); } }'
     sed -i "s/meanRadius 1e-3/meanRadius $2/; s/gas air/gas vacuum/" constant/granularProperties
     gravity_is '0 0 -9.81'
     hot_wall top 340

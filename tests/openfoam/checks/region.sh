@@ -4,23 +4,31 @@ hot() { # folder, policy: a case whose grains swell by a fifth
     changed "$1"
     shift
     sed -i 's/uniform 100/uniform 800/' 0/T
-    grains "surrogate { outOfRegion { $* } }"
+    grains "surrogate { outOfTrainingRange { $* } }"
     mesh_is '12 6 1'
 }
 hot region-error
-check "dense side: error by default" refused 'of outOfRegion in constant/granularProperties is error'
+check "dense side: error by default" refused 'of outOfTrainingRange in constant/granularProperties is error'
 check "offenders.json is written before" grep -q '"schema": "msdd-offenders-1"' postProcessing/msddFoam/offenders.json
 check "offenders.json has rows" grep -q '"side": "below", "column": "porosity"\|"side": "above", "column": "elastic_compression"' \
     postProcessing/msddFoam/offenders.json
 
 hot region-clamp 'porosity { below clamp; } elasticCompression { above clamp; } thermalStrain { above clamp; }'
 logged msddFoam
-check "clamp: goes on, and inRegion shows the cells" \
-    test "$(field 1/inRegion | awk '$1 == 0 { out++ } $1 == 1 { in_++ } END { print (out > 0 && in_ > 0) }')" = 1
+check "clamp: goes on, and inTrainingRange shows the cells" \
+    test "$(field 1/inTrainingRange | awk '$1 == 0 { out++ } $1 == 1 { in_++ } END { print (out > 0 && in_ > 0) }')" = 1
 check "clamp: counted" grep -q '"clamped_queries": [1-9]' postProcessing/msddFoam/summary.json
 check "clamp: the end of the run says how many states were outside, and how many cells are" grep -q -- \
-    "- Range: .* % of the states .* lay outside .* At the end $(field 1/inRegion | grep -cx 0) of 72 cells are outside" log
+    "- Range: .* % of the states .* lay outside .* At the end $(field 1/inTrainingRange | grep -cx 0) of 72 cells are outside" log
 check "clamp: no warning" test "$(grep -c 'FOAM Warning' log)" = 0
+
+hot region-former 'porosity { below clamp; } elasticCompression { above clamp; } thermalStrain { above clamp; }'
+sed -i 's/outOfTrainingRange/outOfRegion/' constant/granularProperties
+logged msddFoam
+check "the former name of a key is read, with a line in the log" \
+    grep -q "^Renamed since version 0.3: entry 'outOfRegion' in .* is 'outOfTrainingRange' now" log
+check "former name: the same fields" cmp 1/T ../region-clamp/1/T
+check "former name: the same cells" cmp 1/inTrainingRange ../region-clamp/1/inTrainingRange
 
 hot region-warn 'porosity { below warn; } elasticCompression { above warn; } thermalStrain { above clamp; }'
 logged msddFoam
@@ -54,7 +62,7 @@ check "the start is judged before the first step" refused 'At the start 72 cells
 loose_start() { # folder, porosity, policy
     changed "$1"
     sed -i "s/^#include.*porosity.*/&\ninternalField uniform $2;/" 0/porosity
-    grains "surrogate { outOfRegion { porosity { $3 } } }"
+    grains "surrogate { outOfTrainingRange { porosity { $3 } } }"
     mesh_is '2 1 1'
     controls 'endTime 0.05;'
 }

@@ -38,10 +38,10 @@ measured_bed() {
     check "after 4000 s within $worst <= 1.5 K of the measured temperatures" below "$worst" 1.5
     check "all answers inside the range of the law" grep -qx 'answers_outside: 0' log
 }
-# Rms of one row of what compare-elements prints
+# Rms of one row of what compare-dem prints
 apart_by() { awk -v name="$1" 'substr($0, 1, length(name)) == name { split(substr($0, 23), n, " "); print n[2] }' differences; }
-# What is wanted beside discrete elements: 1 % of the range of T, 5 % of pressures, 3 % of the conductivity
-as_the_elements() { # what, largest error of the conductivity
+# What is wanted beside DEM: 1 % of the range of T, 5 % of pressures, 3 % of the conductivity
+as_dem() { # what, largest error of the conductivity
     local t p k wall
     t=$(apart_by 'T at the probes') p=$(apart_by 'p ') k=$(apart_by K) wall=$(apart_by 'stress on the wall')
     check "$1: T differs from the elements by $t <= 1 % of its range (rms)" below "$t" 1
@@ -61,16 +61,16 @@ pressed_bed() { # the case column beside 20 000 spheres
     local same
     column column
     logged msddFoam
-    "$checkout/cases/common/compare-elements" lid zz xx yy zz > differences
+    "$checkout/cases/common/compare-dem" lid zz xx yy zz > differences
     check "no warning, not of MPI either" [ "$(grep -c 'FOAM Warning' log)" = 0 ]
-    as_the_elements "a column that is pressed and heated" 2
+    as_dem "a column that is pressed and heated" 2
     check "how much one packing differs from the mean is printed" [ "$(awk '$1 == "p" { print ($5 > 0.5 && $5 < 10) }' differences)" = 1 ]
-    rm elements-scatter.csv
-    "$checkout/cases/common/compare-elements" lid zz xx yy zz > alone
+    rm dem-scatter.csv
+    "$checkout/cases/common/compare-dem" lid zz xx yy zz > alone
     same=$(diff <(cut -c1-49 differences) <(cut -c1-49 alone) > /dev/null && echo yes)
     check "the differences are the same without it" [ "$same" = yes ]
-    check "refused: no such wall" fails "$checkout/cases/common/compare-elements" roof zz xx yy zz
-    check "refused: no component" fails "$checkout/cases/common/compare-elements" lid zz xx yy z
+    check "refused: no such wall" fails "$checkout/cases/common/compare-dem" roof zz xx yy zz
+    check "refused: no component" fails "$checkout/cases/common/compare-dem" lid zz xx yy z
 }
 fails() { ! "$@" > /dev/null 2>&1; }
 heated_store() { # the case store beside 20 000 spheres
@@ -81,8 +81,8 @@ heated_store() { # the case store beside 20 000 spheres
     sed -i "s#../../common#$checkout/cases/common#" system/*
     logged blockMesh
     logged msddFoam
-    "$checkout/cases/common/compare-elements" $(sed -n 's/.*compare-elements //p' Allrun) > differences
-    as_the_elements "a store that is heated ten times" 3
+    "$checkout/cases/common/compare-dem" $(sed -n 's/.*compare-dem //p' Allrun) > differences
+    as_dem "a store that is heated ten times" 3
 }
 what_changes_it() {
     local plain other

@@ -10,7 +10,7 @@ use std::ops::ControlFlow;
 use std::path::Path;
 
 /// Largest number of threads that is accepted; more is taken for a mistake.
-const MOST_THREADS: u32 = 1024;
+const MAX_THREADS: u32 = 1024;
 
 /// `msdd_database_generate`
 ///
@@ -33,8 +33,8 @@ pub unsafe extern "C" fn msdd_database_generate(
                 .expect("a worker");
         }
         let plan = Plan::parse(&plan, "plan")?;
-        if threads > MOST_THREADS {
-            return Err(Failure::argument("threads", threads, format!("0 to {MOST_THREADS}")));
+        if threads > MAX_THREADS {
+            return Err(Failure::argument("threads", threads, format!("0 to {MAX_THREADS}")));
         }
         let run = Run { threads: threads.max(1) as usize, ..Run::default() };
         let mut cancelled = false;

@@ -13,7 +13,7 @@ use serde_json::Value;
 use std::ffi::c_char;
 
 /// Largest number of characters of a specification that a message shows.
-const MOST_SHOWN: usize = 200;
+const MAX_SHOWN: usize = 200;
 
 /// Specification of a packing, as JSON.
 #[derive(Deserialize)]
@@ -91,13 +91,13 @@ impl Specification {
     /// Reads a JSON object. Arrays are refused here, because serde would take them for an object without keys.
     fn read(text: &str) -> Result<Self, Failure> {
         let refused = |name: &str, allowed: String| {
-            let start: String = text.chars().take(MOST_SHOWN).collect();
+            let start: String = text.chars().take(MAX_SHOWN).collect();
             let more = if start.len() < text.len() { " and more" } else { "" };
             Failure::argument(name, format!("{start}{more}"), allowed)
         };
         // The text of a serde error may quote a key of any length.
         let reason =
-            |error: serde_json::Error| error.to_string().chars().take(2 * MOST_SHOWN).collect::<String>();
+            |error: serde_json::Error| error.to_string().chars().take(2 * MAX_SHOWN).collect::<String>();
         let json = |error| refused("specification", format!("a JSON object: {}", reason(error)));
         let value: Value = serde_json::from_str(text).map_err(json)?;
         if !value.is_object() {

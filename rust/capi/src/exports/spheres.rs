@@ -11,7 +11,7 @@ use crate::status::{Failure, status, value};
 use ::msdd_surrogate::kernel::{LANES, Lanes};
 use ::msdd_surrogate::models::BUILTIN;
 use ::msdd_surrogate::spheres::model::{Answers, Block, COLUMNS, NAMES, SphereModel, Wanted, allowed};
-use ::msdd_surrogate::spheres::state::Known;
+use ::msdd_surrogate::spheres::state::PackingData;
 use ::msdd_surrogate::spheres::tensor::Tensor;
 use std::ffi::c_char;
 use std::ptr::null;
@@ -22,7 +22,7 @@ const AXES: [&str; 3] = ["x", "y", "z"];
 /// Largest strain, and angle \[rad\] by which a cell turns, in one step.
 const LARGEST_STEP: f64 = 0.2;
 /// \[K\]
-const USUAL_TEMPERATURE: f64 = 293.15;
+const REFERENCE_TEMPERATURE: f64 = 293.15;
 /// Beside [`OUTSIDE`](::msdd_surrogate::spheres::model::OUTSIDE), in the column `outside`.
 const OUTSIDE_BY_GAS: u8 = 8;
 
@@ -205,7 +205,7 @@ pub unsafe extern "C" fn msdd_spheres_initial_state(
         }
         for cell in 0..cells {
             let stress: Tensor = std::array::from_fn(|k| stress[k].at(cell) / material.modulus());
-            let known = Known {
+            let known = PackingData {
                 coordination: coordination.map(|column| column.at(cell)),
                 mobilised: mobilised.map(|column| column.at(cell)),
                 fabric: fabric.as_ref().map(|columns| std::array::from_fn(|k| columns[k].at(cell))),
@@ -341,7 +341,7 @@ impl<'a> Columns<'a> {
         };
         let wanted = self.wanted();
         // Everything that can be refused, before anything is written.
-        let gas_at = |cell| there(cell).gas(one(&self.temperature, USUAL_TEMPERATURE, cell));
+        let gas_at = |cell| there(cell).gas(one(&self.temperature, REFERENCE_TEMPERATURE, cell));
         let conducting = if wanted.conduction { cells } else { 0 };
         let gases: Vec<GasThere> = (0..conducting).map(gas_at).collect::<Result<_, _>>()?;
         let mut count = 0;

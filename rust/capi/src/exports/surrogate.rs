@@ -5,7 +5,7 @@ use crate::abi::{msdd_batch, msdd_initial, msdd_material, msdd_surrogate};
 use crate::batch::{self, Columns};
 use crate::columns::{Input, Output};
 use crate::handles::SurrogateHandle;
-use crate::model::{BatchModel, Own, Start};
+use crate::model::{BatchModel, InitialColumns, Own};
 use crate::si::{LARGEST_STRESS, Si};
 use crate::status::{Failure, status, value};
 use ::msdd_surrogate::models;
@@ -217,7 +217,7 @@ pub unsafe extern "C" fn msdd_surrogate_initial_state(
 ///
 /// # Safety
 /// The columns are null or hold `cells` values.
-unsafe fn start<'a>(initial: &msdd_initial) -> Result<Start<'a>, Failure> {
+unsafe fn start<'a>(initial: &msdd_initial) -> Result<InitialColumns<'a>, Failure> {
     let cells = initial.cells;
     // SAFETY: null or `cells` values by this function's contract.
     let needed = |name, start: *const f64| unsafe { Input::new(name, start, cells) };
@@ -230,7 +230,7 @@ unsafe fn start<'a>(initial: &msdd_initial) -> Result<Start<'a>, Failure> {
         optional("conductivity_xx", initial.conductivity_xx)?,
         optional("conductivity_yy", initial.conductivity_yy)?,
     ];
-    let start = Start {
+    let start = InitialColumns {
         cells,
         porosity: needed("porosity", initial.porosity)?,
         fabric_index: needed("fabric_index", initial.fabric_index)?,

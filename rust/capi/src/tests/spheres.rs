@@ -4,7 +4,7 @@ use super::*;
 use crate::abi::{msdd_sphere_batch, msdd_sphere_material, msdd_sphere_wall, msdd_spheres};
 use crate::sphere_material::Material;
 use ::msdd_surrogate::spheres::model::{Increment, NAMES, SphereModel};
-use ::msdd_surrogate::spheres::state::Known;
+use ::msdd_surrogate::spheres::state::PackingData;
 use msdd_beds::named_gases::GasName;
 use msdd_beds::radiation::{Dark, black};
 
@@ -270,7 +270,7 @@ fn contacts_friction_and_fabric_are_those_that_are_known() {
     let tensor = Some([0.32, 0.32, 0.36, 0.0, 0.0, 0.0]);
     for cell in 0..2 {
         let [coordination, mobilised] = [contacts[cell], friction[cell]].map(Some);
-        let known = Known { coordination, fabric: tensor, mobilised };
+        let known = PackingData { coordination, fabric: tensor, mobilised };
         let expected = model.initial_state(0.6, load, &known);
         assert!((0..size).all(|k| state[k][cell] == expected[k]), "{expected:?}");
     }

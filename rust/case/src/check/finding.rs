@@ -8,12 +8,12 @@ pub enum Severity {
     /// The solver refuses the case.
     Error,
     /// The case runs, but its result may not be what was meant.
-    Doubt,
+    Warning,
     /// What was not looked at.
     Omission,
 }
 
-/// One thing that is wrong or doubtful.
+/// One thing that is wrong or warned.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Finding {
     pub severity: Severity,
@@ -31,7 +31,7 @@ impl fmt::Display for Finding {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         let severity = match self.severity {
             Severity::Error => "error",
-            Severity::Doubt => "doubt",
+            Severity::Warning => "warning",
             Severity::Omission => "not checked",
         };
         write!(f, "{severity}: {}", self.text)

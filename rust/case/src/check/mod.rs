@@ -94,7 +94,7 @@ fn finding(line: &str) -> Option<Finding> {
         "Not" => Some(Finding::new(Severity::Omission, text)),
         // OpenFOAM lists a hundred types
         "Error" => Some(Finding::new(Severity::Error, &shortened(text))),
-        "Warning" => Some(Finding::new(Severity::Doubt, text)),
+        "Warning" => Some(Finding::new(Severity::Warning, text)),
         _ => None,
     }
 }
@@ -107,7 +107,7 @@ mod tests {
     fn the_list_of_the_solver_is_read_and_folders_that_hold_no_case_are_named() {
         for (line, found) in [
             ("Error 1: constant/g, line 2: 'modle'", "error: constant/g, line 2: 'modle'"),
-            ("Warning 2: The mesh has 2 parts: no heat", "doubt: The mesh has 2 parts: no heat"),
+            ("Warning 2: The mesh has 2 parts: no heat", "warning: The mesh has 2 parts: no heat"),
             ("Not checked: the fluid regions (gas)", "not checked: the fluid regions (gas)"),
             ("Time = 3", ""),
         ] {

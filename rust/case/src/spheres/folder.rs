@@ -1,8 +1,8 @@
 //! Makes the files of a new case of a bed of spheres.
 
-use super::scene::{Lid, Scene};
+use super::scene::{Lid, SphereCase};
 use super::shape::{HALF_ANGLE, INNER, Shape};
-use super::start::{ACCOMMODATION, FABRIC, LATERAL, Start};
+use super::start::{ACCOMMODATION, FABRIC, InitialBed, LATERAL};
 use super::wall;
 use crate::CaseError;
 use crate::fields::{FieldKind, uniform};
@@ -23,7 +23,7 @@ macro_rules! template {
 ///
 /// # Errors
 /// [`CaseError::Model`] when the shipped law cannot be read.
-pub fn files(scene: &Scene, name: &str, checkout: &Path) -> Result<Vec<File>, CaseError> {
+pub fn files(scene: &SphereCase, name: &str, checkout: &Path) -> Result<Vec<File>, CaseError> {
     let values = values(scene, name, checkout)?;
     let filled = |template: &str| fill(template, &values);
     let foam = |path, class: &str, template: &str| File::foam(path, class, &filled(template));
@@ -53,7 +53,7 @@ pub fn files(scene: &Scene, name: &str, checkout: &Path) -> Result<Vec<File>, Ca
 }
 
 /// \[K\]
-fn tolerance(scene: &Scene) -> f64 {
+fn tolerance(scene: &SphereCase) -> f64 {
     let [least, most] = scene.temperatures();
     // A bed that is heated from inside alone has no range before it is run.
     let range = if most > least { most - least } else { 10.0 };
@@ -61,7 +61,7 @@ fn tolerance(scene: &Scene) -> f64 {
 }
 
 /// Porosity, fabric index, and the stress unless it follows from the weight, with the same value in all cells.
-fn initial_fields(scene: &Scene) -> Result<Vec<File>, CaseError> {
+fn initial_fields(scene: &SphereCase) -> Result<Vec<File>, CaseError> {
     let field = |path: &'static str, kind: FieldKind, note: &str, value: &str| {
         let name = path.trim_start_matches("0/");
         File { path, text: uniform(name, kind, note, value), program: false }
@@ -85,7 +85,7 @@ fn initial_fields(scene: &Scene) -> Result<Vec<File>, CaseError> {
     Ok(fields)
 }
 
-fn values(scene: &Scene, name: &str, checkout: &Path) -> Result<Values, CaseError> {
+fn values(scene: &SphereCase, name: &str, checkout: &Path) -> Result<Values, CaseError> {
     let start = scene.start()?;
     let probe = |probe: &Vec<f64>| format!("            {}", scene.shape.point(probe));
     let named = || scene.shape.walls().iter().copied().zip(&scene.walls);
@@ -139,7 +139,7 @@ fn wedge(shape: &Shape) -> &'static str {
     }
 }
 
-fn mesh_values(scene: &Scene) -> Values {
+fn mesh_values(scene: &SphereCase) -> Values {
     let counts = |order: &[usize]| order.iter().map(ToString::to_string).collect::<Vec<_>>().join(" ");
     let mut values = vec![
         ("height", plain(scene.shape.height())),
@@ -172,7 +172,7 @@ fn mesh_values(scene: &Scene) -> Values {
 }
 
 /// The stress at the start, for README.md.
-fn stress_row(scene: &Scene) -> Result<String, CaseError> {
+fn stress_row(scene: &SphereCase) -> Result<String, CaseError> {
     Ok(match rests(scene) {
         true => "at rest under weight and pressure on the top | `constant/granularProperties`".to_string(),
         false => {
@@ -183,7 +183,7 @@ fn stress_row(scene: &Scene) -> Result<String, CaseError> {
     })
 }
 
-fn bed_values(scene: &Scene, start: &Start) -> Result<Values, CaseError> {
+fn bed_values(scene: &SphereCase, start: &InitialBed) -> Result<Values, CaseError> {
     let short = |value: f64| plain(rounded(value, 3));
     let [along, up] = FABRIC;
     Ok(vec![
@@ -227,7 +227,7 @@ fn bed_values(scene: &Scene, start: &Start) -> Result<Values, CaseError> {
 }
 
 /// How top and side hold the spheres, for README.md.
-fn held(scene: &Scene) -> String {
+fn held(scene: &SphereCase) -> String {
     let top = match (scene.mechanics, scene.lid) {
         (Mechanics::None, _) => return "nothing moves".to_string(),
         (_, Lid::Presses) => "the top is a stiff plate under a constant load",
@@ -241,25 +241,25 @@ fn held(scene: &Scene) -> String {
         0.0 => "rigid walls are smooth".to_string(),
         friction => format!("rigid walls: {}", wall::sentence(friction)),
     };
-    let give = match scene.give > 0.0 {
-        true => format!("; spheres give way by {} diameters at top and bottom", plain(scene.give)),
+    let give = match scene.slack_layer > 0.0 {
+        true => format!("; spheres give way by {} diameters at top and bottom", plain(scene.slack_layer)),
         false => String::new(),
     };
     format!("{top}, the side is {side}; {friction}{give}")
 }
 
 /// What is left out of this bed, for README.md.
-fn left_out(scene: &Scene) -> String {
+fn left_out(scene: &SphereCase) -> String {
     scene.notes().iter().map(|note| format!("- {note}\n")).collect()
 }
 
 /// What `constant/granularProperties` says of walls and of the stress at the start.
-fn rest(scene: &Scene) -> String {
+fn rest(scene: &SphereCase) -> String {
     if scene.mechanics == Mechanics::None {
         return String::new();
     }
-    let give = match scene.give > 0.0 {
-        true => format!(" give {}; giveBack 0.1;", plain(scene.give)),
+    let give = match scene.slack_layer > 0.0 {
+        true => format!(" slackLayer {}; slackRecovery 0.1;", plain(scene.slack_layer)),
         false => String::new(),
     };
     let rigid = wall::entry(scene.wall_friction, 2.0 * scene.spheres.radius());
@@ -297,7 +297,7 @@ fn rest(scene: &Scene) -> String {
 }
 
 /// What `constant/granularProperties` says of the gas that flows.
-fn flow(scene: &Scene) -> String {
+fn flow(scene: &SphereCase) -> String {
     let Some(flow) = scene.flow else { return String::new() };
     let [inlet, outlet] = flow.ends();
     // The mesh of a cylinder is a wedge
@@ -317,7 +317,7 @@ fn flow(scene: &Scene) -> String {
 }
 
 /// The flow, for README.md.
-fn flow_row(scene: &Scene) -> String {
+fn flow_row(scene: &SphereCase) -> String {
     scene.flow.map_or_else(String::new, |flow| {
         let [inlet, outlet] = flow.ends();
         format!(
@@ -329,7 +329,7 @@ fn flow_row(scene: &Scene) -> String {
 }
 
 /// The side of a cylinder as a shell.
-fn side(scene: &Scene) -> Option<String> {
+fn side(scene: &SphereCase) -> Option<String> {
     match (scene.shell, scene.shape) {
         (Some(shell), Shape::Cylinder { radius, .. }) => Some(format!(
             "type shell; youngModulus {}; thickness {}; radius {}; thermalExpansion {}; temperature {};",
@@ -344,8 +344,8 @@ fn side(scene: &Scene) -> Option<String> {
 }
 
 /// Whether the bed begins at rest under its weight. Rough walls carry a part of it; the bed then begins with
-/// [`Scene::stress_at_start`] everywhere, and the first step adds the weight.
-fn rests(scene: &Scene) -> bool {
+/// [`SphereCase::stress_at_start`] everywhere, and the first step adds the weight.
+fn rests(scene: &SphereCase) -> bool {
     scene.gravity > 0.0 && (scene.wall_friction == 0.0 || scene.shell.is_some())
 }
 

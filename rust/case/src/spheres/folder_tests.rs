@@ -7,27 +7,27 @@ use crate::spheres::scene::{Flow, Shell};
 #[test]
 fn walls_and_stress_stand_where_the_solver_looks_for_them() {
     let insulated = walls_of(["insulated"; 6]).to_vec();
-    let plates = Scene {
+    let plates = SphereCase {
         shape: Shape::Box([0.3, 0.1, 0.2]),
         cells: vec![20, 1, 1],
         walls: insulated,
         probes: vec![vec![0.1; 3]],
         ..spheres()
     };
-    let closed = Scene { lid: Lid::Stays, give: 1.0, gravity: 9.81, ..spheres() };
+    let closed = SphereCase { lid: Lid::Stays, slack_layer: 1.0, gravity: 9.81, ..spheres() };
     let shell = Some(Shell { young_modulus: 2e11, thickness: 0.002, thermal_expansion: 1.2e-5 });
-    let vessel = Scene { shell, ..closed.clone() };
-    let rough = Scene { wall_friction: 0.3, ..closed };
-    let still = Scene { mechanics: Mechanics::None, ..spheres() };
+    let vessel = SphereCase { shell, ..closed.clone() };
+    let rough = SphereCase { wall_friction: 0.3, ..closed };
+    let still = SphereCase { mechanics: Mechanics::None, ..spheres() };
     let flow = Some(Flow { mass: 0.0072, temperature: 813.0, upwards: true });
-    let blown = Scene { flow, walls: walls_of(["insulated"; 3]).to_vec(), ..spheres() };
+    let blown = SphereCase { flow, walls: walls_of(["insulated"; 3]).to_vec(), ..spheres() };
     const GRAINS: &str = "constant/granularProperties";
     for (scene, path, words, there) in [
         (&plates, "0/stress", "uniform (-16000 0 0 -16000 0 -20000);", true),
         (&spheres(), "0/stress", "uniform (-20000 0 0 -16000 0 -16000);", true),
         (&spheres(), GRAINS, "top      { type piston; pressure constant 20000; }", true),
         (&spheres(), GRAINS, "inner    { type frictionless; }", true),
-        (&vessel, GRAINS, "top      { type frictionless; give 1; giveBack 0.1; }", true),
+        (&vessel, GRAINS, "top      { type frictionless; slackLayer 1; slackRecovery 0.1; }", true),
         (
             &vessel,
             GRAINS,
@@ -39,8 +39,8 @@ fn walls_and_stress_stand_where_the_solver_looks_for_them() {
         (&vessel, "0/stress", "uniform", false),
         (&vessel, GRAINS, "restStress", true),
         (&rough, GRAINS, "side     { type rigid; friction 0.154; slip 6.4e-6; }", true),
-        (&rough, GRAINS, "bottom   { type rigid; friction 0.154; slip 6.4e-6; give 1; giveBack 0.1; }", true),
-        (&rough, GRAINS, "top      { type rigid; friction 0.154; slip 6.4e-6; give 1; giveBack 0.1; }", true),
+        (&rough, GRAINS, "bottom   { type rigid; friction 0.154; slip 6.4e-6; slackLayer 1; slackRecovery 0.1; }", true),
+        (&rough, GRAINS, "top      { type rigid; friction 0.154; slip 6.4e-6; slackLayer 1; slackRecovery 0.1; }", true),
         (&rough, GRAINS, "inner    { type frictionless; }", true),
         // Walls bear a part of the weight, so the bed does not begin at rest.
         (&rough, GRAINS, "restStress", false),
@@ -53,7 +53,7 @@ fn walls_and_stress_stand_where_the_solver_looks_for_them() {
         (&blown, "README.md", "| flow | 0.0072 kg/s of 813 K from bottom to top |", true),
     ] {
         let files =
-            files(&Scene { heat_source: Some(3000.0), ..scene.clone() }, "bed", Path::new("/checkout"));
+            files(&SphereCase { heat_source: Some(3000.0), ..scene.clone() }, "bed", Path::new("/checkout"));
         let files = files.unwrap();
         assert_eq!(text(&files, path).contains(words), there, "{path}: {words}\n{}", text(&files, path));
     }

@@ -2,14 +2,14 @@
 
 use super::material::Spheres;
 use super::shape::Shape;
-use super::start::{Bed, Gas, LATERAL, Start};
+use super::start::{Gas, InitialBed, LATERAL, PouredBed};
 use super::wall;
 use crate::CaseError;
 use crate::numbers::{plain, rounded};
 use crate::ranges::{self, allow};
 use crate::scene::Mechanics;
 use crate::walls::{self, WallOverTime};
-use msdd_beds::effective::LEAST_RATIO;
+use msdd_beds::effective::MIN_RATIO;
 use msdd_beds::named_gases::GasName;
 use msdd_rve::message::number;
 use std::f64::consts::PI;
@@ -55,7 +55,7 @@ impl Flow {
 
 /// All parameters of a new case. SI units.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Scene {
+pub struct SphereCase {
     pub shape: Shape,
     /// Cells along each direction of the shape.
     pub cells: Vec<usize>,
@@ -76,7 +76,7 @@ pub struct Scene {
     pub lid: Lid,
     pub shell: Option<Shell>,
     /// By how much spheres give way at bottom and top where these stay \[mean diameters\].
-    pub give: f64,
+    pub slack_layer: f64,
     /// Coefficient of friction of spheres and the walls that stay; 0: smooth.
     pub wall_friction: f64,
     /// Acceleration downwards \[m/s²\].
@@ -106,7 +106,7 @@ fn refuse<T>(key: &str, value: &str, allowed: &str) -> Result<T, CaseError> {
 /// [`CaseError::Parameter`]; [`CaseError::Model`] when the shipped law cannot be read.
 pub fn check_pressure(spheres: Spheres, pressure: f64) -> Result<(), CaseError> {
     let short = |value: f64| number(rounded(value, 3));
-    let [least, most] = Bed::new(spheres, pressure)?.pressures();
+    let [least, most] = PouredBed::new(spheres, pressure)?.pressures();
     allow("pressure", pressure, (least..=most).contains(&pressure), || {
         format!("{} to {} Pa, which the law of spheres knows of these", short(least), short(most))
     })
@@ -117,7 +117,7 @@ pub fn check_pressure(spheres: Spheres, pressure: f64) -> Result<(), CaseError> 
 /// # Errors
 /// As for [`check_pressure`].
 pub fn check_porosity(spheres: Spheres, pressure: f64, porosity: f64) -> Result<(), CaseError> {
-    let known = Bed::new(spheres, pressure)?.porosities();
+    let known = PouredBed::new(spheres, pressure)?.porosities();
     let inside = known.is_some_and(|[least, most]| (least..=most).contains(&porosity));
     allow("porosity", porosity, inside, || match known {
         Some([least, most]) => format!(
@@ -128,7 +128,7 @@ pub fn check_porosity(spheres: Spheres, pressure: f64, porosity: f64) -> Result<
     })
 }
 
-impl Scene {
+impl SphereCase {
     /// Refuses values out of range; the error names the first of them.
     ///
     /// # Errors
@@ -168,8 +168,7 @@ impl Scene {
         ranges::gas_pressure(self.gas.pressure)?;
         for temperature in self.temperatures() {
             let Some(between) = gas.at(temperature, self.gas.pressure, 1.0) else { continue };
-            let (solid, least) =
-                (self.spheres.grains.thermal_conductivity, LEAST_RATIO * between.conductivity);
+            let (solid, least) = (self.spheres.grains.thermal_conductivity, MIN_RATIO * between.conductivity);
             allow("thermalConductivity", solid, solid >= least, || {
                 format!(
                     "at least that of the gas ({}), which is {} W/(m K) at {} K",
@@ -205,7 +204,7 @@ impl Scene {
 
     fn check_mechanics(&self) -> Result<(), CaseError> {
         ranges::gravity(self.gravity)?;
-        allow("give", self.give, (0.0..=1000.0).contains(&self.give), || {
+        allow("slackLayer", self.slack_layer, (0.0..=1000.0).contains(&self.slack_layer), || {
             "0 to 1000 diameters of a sphere".to_string()
         })?;
         ranges::wall_friction(self.wall_friction)?;
@@ -250,15 +249,15 @@ impl Scene {
         )
     }
 
-    fn bed(&self) -> Result<Bed, CaseError> {
-        Bed::new(self.spheres, self.pressure)
+    fn bed(&self) -> Result<PouredBed, CaseError> {
+        PouredBed::new(self.spheres, self.pressure)
     }
 
     /// The bed at the start.
     ///
     /// # Errors
     /// [`CaseError::Model`] when the shipped law cannot be read.
-    pub fn start(&self) -> Result<Start, CaseError> {
+    pub fn start(&self) -> Result<InitialBed, CaseError> {
         Ok(self.bed()?.start(self.porosity, &self.gas, self.initial_temperature))
     }
 
@@ -273,7 +272,7 @@ impl Scene {
     /// loads the bed, which mobilises the friction.
     ///
     /// # Errors
-    /// As for [`Scene::start`].
+    /// As for [`SphereCase::start`].
     pub fn stress_at_start(&self) -> Result<f64, CaseError> {
         if self.gravity == 0.0 || self.wall_friction == 0.0 || self.lid == Lid::Stays {
             return Ok(self.pressure);
@@ -340,7 +339,7 @@ impl Scene {
     /// Thermal diffusivity of the bed at the start, K/(ρ c (1 − η)) \[m²/s\].
     ///
     /// # Errors
-    /// As for [`Scene::start`].
+    /// As for [`SphereCase::start`].
     pub fn diffusivity(&self) -> Result<f64, CaseError> {
         let grains = &self.spheres.grains;
         let storage = grains.density * grains.heat_capacity * (1.0 - self.porosity);
@@ -348,10 +347,10 @@ impl Scene {
     }
 
     /// Proposed end time \[s\], rounded to two digits: with a flow the time in which its front crosses the bed, else L²/D with the
-    /// length L = [`Scene::heat_way`].
+    /// length L = [`SphereCase::heat_way`].
     ///
     /// # Errors
-    /// As for [`Scene::start`].
+    /// As for [`SphereCase::start`].
     pub fn proposed_end(&self) -> Result<f64, CaseError> {
         if let Some(flow) = self.flow
             && let Some(gas) = self.gas.name.flowing(flow.temperature)
@@ -368,7 +367,7 @@ impl Scene {
     /// the run.
     ///
     /// # Errors
-    /// As for [`Scene::start`].
+    /// As for [`SphereCase::start`].
     pub fn first_step(&self) -> Result<f64, CaseError> {
         let sides = self.shape.lengths().into_iter().zip(&self.cells);
         let cell = sides.fold(f64::INFINITY, |least, ((_, length), &count)| least.min(length / count as f64));

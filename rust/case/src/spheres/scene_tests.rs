@@ -9,11 +9,11 @@ use crate::spheres::material::MATERIALS;
 fn wishes_out_of_range_are_refused_with_key_value_and_range() {
     MATERIALS.iter().for_each(|material| material.spheres().check().unwrap());
     let no_shell = Some(Shell { young_modulus: 2e11, thickness: 0.0, thermal_expansion: 0.0 });
-    let error = Scene { shell: no_shell, ..spheres() }.check().unwrap_err().to_string();
+    let error = SphereCase { shell: no_shell, ..spheres() }.check().unwrap_err().to_string();
     assert!(error.starts_with("thickness of the shell = 0, allowed: more than 0"), "{error}");
     each_is_refused(
         &spheres(),
-        Scene::check,
+        SphereCase::check,
         &[
             (|s| s.spheres.poisson_ratio = 0.6, "poissonRatio = 0.6, allowed: -0.99 to 0.5"),
             (|s| s.spheres.roughness = 1e-3, "roughness = 0.001, allowed: 0 (smooth) to a hundredth"),
@@ -25,7 +25,7 @@ fn wishes_out_of_range_are_refused_with_key_value_and_range() {
             (|s| s.gas.pressure = 0.0, "gas pressure = 0, allowed: 1e-3 to 1e9 Pa"),
             (|s| s.gravity = -9.81, "gravity = -9.81, allowed: 0 to 1000 m/s2 downwards"),
             (|s| (s.mechanics, s.wall_friction) = (Mechanics::None, 0.3), "wall friction = 0.3, allowed: 0"),
-            (|s| s.give = -1.0, "give = -1, allowed: 0 to 1000 diameters"),
+            (|s| s.slack_layer = -1.0, "slackLayer = -1, allowed: 0 to 1000 diameters"),
             (|s| s.end_time = 0.0, "end time = 0, allowed: 1e-9 to 1e12 s"),
             (|s| s.tolerance = Some(0.0), "tolerance = 0, allowed: 1e-12 to 1e6 K"),
         ],
@@ -36,10 +36,10 @@ fn wishes_out_of_range_are_refused_with_key_value_and_range() {
 fn a_flow_needs_a_gas_and_open_ends() {
     let flow = Flow { mass: 0.004, temperature: 813.0, upwards: false };
     let walls = vec![parse_wall("insulated").unwrap(); 3];
-    let scene = Scene { flow: Some(flow), walls, ..spheres() };
+    let scene = SphereCase { flow: Some(flow), walls, ..spheres() };
     each_is_refused(
         &scene,
-        Scene::check,
+        SphereCase::check,
         &[
             (|s| s.flow.as_mut().unwrap().mass = -1.0, "flow = -1, allowed: more than 0"),
             (|s| s.flow.as_mut().unwrap().temperature = 100.0, "flow temperature = 100, allowed: 273 to"),
@@ -68,30 +68,30 @@ fn proposals_follow_spheres_walls_and_diffusion() {
     assert!((scene.proposed_end().unwrap() / end - 1.0).abs() < 0.05);
     let first = scene.first_step().unwrap();
     assert!(first > 0.0 && first <= 0.01 * scene.end_time, "{first}");
-    let insulated = Scene { walls: vec![parse_wall("insulated").unwrap(); 3], ..scene.clone() };
+    let insulated = SphereCase { walls: vec![parse_wall("insulated").unwrap(); 3], ..scene.clone() };
     assert_eq!((insulated.varies(), insulated.heat_way()), (vec![false, false], 0.4));
-    assert_eq!(Scene { gravity: GRAVITY, ..insulated.clone() }.varies(), [false, true]);
-    assert_eq!(Scene { wall_friction: 0.3, ..insulated }.varies(), [true, true]);
+    assert_eq!(SphereCase { gravity: GRAVITY, ..insulated.clone() }.varies(), [false, true]);
+    assert_eq!(SphereCase { wall_friction: 0.3, ..insulated }.varies(), [true, true]);
     // 210e9/(2 (1 - 0.09))
     assert!((scene.spheres.contact_modulus() / 115.385e9 - 1.0).abs() < 1e-5);
 }
 
 #[test]
 fn weight_and_friction_are_counted_at_the_start_or_noted() {
-    let begins = |scene: &Scene, notes: &[&str]| {
+    let begins = |scene: &SphereCase, notes: &[&str]| {
         let found = scene.notes();
         let fit = found.iter().zip(notes).all(|(note, begin)| note.starts_with(begin));
         assert!(fit && found.len() == notes.len(), "{found:?}");
     };
     // 7800 0.6 9.81 0.4 Pa are not small beside 20 kPa
     begins(&spheres(), &["the weight of the bed, up to 18000 Pa at the bottom", "the sides are smooth"]);
-    let rough = Scene { gravity: GRAVITY, wall_friction: wall::OF_SPHERE, ..spheres() };
+    let rough = SphereCase { gravity: GRAVITY, wall_friction: wall::OF_SPHERE, ..spheres() };
     begins(&rough, &[]);
     // Janssen's stress at the bottom: less than the pressure on the top, if that is more than the walls leave of the weight
     let length = 0.05 / (wall::of_bed(wall::OF_SPHERE) * LATERAL);
     let deep = 7800.0 * 0.6 * GRAVITY * length;
     let bottom = deep + (2e4 - deep) * f64::exp(-0.4 / length);
     assert!(bottom < 2e4 && (rough.stress_at_start().unwrap() / bottom - 1.0).abs() < 0.01, "{bottom}");
-    assert_eq!(Scene { pressure: 1e3, ..rough.clone() }.stress_at_start().unwrap(), 1e3);
-    assert_eq!(Scene { lid: Lid::Stays, ..rough }.stress_at_start().unwrap(), 2e4);
+    assert_eq!(SphereCase { pressure: 1e3, ..rough.clone() }.stress_at_start().unwrap(), 1e3);
+    assert_eq!(SphereCase { lid: Lid::Stays, ..rough }.stress_at_start().unwrap(), 2e4);
 }

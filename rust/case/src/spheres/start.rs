@@ -7,7 +7,7 @@ use msdd_beds::named_gases::GasName;
 use msdd_beds::radiation::{Dark, black};
 use msdd_beds::solid::{Roughness, Solid};
 use msdd_surrogate::spheres::model::{Answer, Increment, SphereModel};
-use msdd_surrogate::spheres::state::Known;
+use msdd_surrogate::spheres::state::PackingData;
 use msdd_surrogate::spheres::tensor::mean;
 
 /// Horizontal over vertical stress: 0.81 and 0.85 in the beds of cases/store and cases/column, which were poured and pressed.
@@ -33,7 +33,7 @@ pub struct Gas {
 }
 
 /// A bed that was poured.
-pub struct Bed {
+pub struct PouredBed {
     model: SphereModel,
     spheres: Spheres,
     /// Vertical stress \[Pa\].
@@ -42,7 +42,7 @@ pub struct Bed {
 
 /// A bed of a porosity at the start.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Start {
+pub struct InitialBed {
     /// Contacts per sphere.
     pub coordination: f64,
     /// Mean over the directions \[W/(m K)\], and the parts of it by gas and radiation.
@@ -51,7 +51,7 @@ pub struct Start {
     pub by_radiation: f64,
 }
 
-impl Bed {
+impl PouredBed {
     /// Of these spheres with this vertical stress \[Pa\].
     ///
     /// # Errors
@@ -78,7 +78,7 @@ impl Bed {
     fn answer(&self, porosity: f64, coordination: Option<f64>, gas_number: f64) -> Answer {
         let pressure = self.pressure / self.spheres.contact_modulus();
         let diagonal = |[along, up]: [f64; 2]| [along, along, up, 0.0, 0.0, 0.0];
-        let known = Known { coordination, fabric: Some(diagonal(FABRIC)), mobilised: None };
+        let known = PackingData { coordination, fabric: Some(diagonal(FABRIC)), mobilised: None };
         let stress = diagonal([LATERAL * pressure, pressure]);
         let state = self.model.initial_state(1.0 - porosity, stress, &known);
         self.model.advance(&state, &Increment::default(), gas_number, false)
@@ -89,7 +89,7 @@ impl Bed {
     }
 
     /// The bed with this porosity and gas at a temperature \[K\].
-    pub fn start(&self, porosity: f64, gas: &Gas, temperature: f64) -> Start {
+    pub fn start(&self, porosity: f64, gas: &Gas, temperature: f64) -> InitialBed {
         let coordination = self.answer(porosity, None, ANY_GAS).coordination + MORE_CONTACTS;
         let material = self.material(gas);
         let between = material.gas_at(temperature);
@@ -117,7 +117,7 @@ impl Bed {
             emissivity => dark.radiation(black, emissivity),
         };
         let conductivity = dark.conductivity + by_radiation;
-        Start { coordination, conductivity, by_gas: conduction.gas, by_radiation }
+        InitialBed { coordination, conductivity, by_gas: conduction.gas, by_radiation }
     }
 
     fn material(&self, gas: &Gas) -> BedMaterial {
@@ -143,12 +143,12 @@ mod tests {
     use super::*;
     use crate::spheres::material::MATERIALS;
 
-    /// The discrete elements of cases/column (steel in air, 24 kPa, porosity 0.4037) have 4.70 contacts per sphere at the start and
+    /// DEM of cases/column (steel in air, 24 kPa, porosity 0.4037) have 4.70 contacts per sphere at the start and
     /// conduct 0.233 W/(m K) through contacts and 0.415 through the gas, along z. More of the contacts point there (fabric 0.3527), for
     /// which the law has 1.08 and 1.027 times the means over all directions.
     #[test]
     fn a_poured_bed_is_that_of_discrete_elements() {
-        let bed = |pressure| Bed::new(MATERIALS[0].spheres(), pressure).unwrap();
+        let bed = |pressure| PouredBed::new(MATERIALS[0].spheres(), pressure).unwrap();
         let start = |name, pressure| bed(24e3).start(0.4037, &Gas { name, pressure }, 293.15);
         let (air, vacuum) = (start(GasName::Air, 101_325.0), start(GasName::Vacuum, 1.0));
         for (found, expected, error) in [

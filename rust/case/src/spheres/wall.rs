@@ -11,7 +11,7 @@ const MOST: f64 = 0.18;
 const SLIP: f64 = 1e-3;
 
 /// Tangential over normal stress at a flat wall along which a bed slips, of spheres that slide on it with this coefficient of friction:
-/// less, because spheres also roll along it. The form is a fit to beds of discrete elements in cylinders, heated and cooled: 0.08, 0.13
+/// less, because spheres also roll along it. The form is a fit to beds of DEM in cylinders, heated and cooled: 0.08, 0.13
 /// and 0.15 where the coefficient is 0.1, 0.2 and 0.3.
 pub fn of_bed(friction: f64) -> f64 {
     friction / (friction / MOST).hypot(1.0)

@@ -1,12 +1,12 @@
-//! `msdd bed case`: the bed of an `elements.toml` as a case folder of the solver.
+//! `msdd bed case`: the bed of an `dem.toml` as a case folder of the solver.
 
 use super::geometry::Geometry;
-use super::start::Start;
+use super::start::FirstRow;
 use crate::case::checkout;
 use crate::error::CliError;
 use clap::Args;
+use msdd_beds::dem_case::{DemCase, file_in};
 use msdd_beds::property::Property;
-use msdd_beds::scene::{FILE, Scene};
 use msdd_beds::schedule::Schedule;
 use msdd_case::fields::{FieldKind, head, uniform};
 use msdd_case::folder::{self, File, check_folder};
@@ -17,25 +17,25 @@ use std::path::{Path, PathBuf};
 
 /// Share of the largest change of temperature that a time step may be wrong by.
 const TOLERANCE: f64 = 2e-3;
-/// By how much spheres give way at a plate: about the mean of the poured beds, see `msdd bed give`.
-const GIVE: &str = "give 1; giveBack 0.1;";
+/// By how much spheres give way at a plate: about the mean of the poured beds, see `msdd bed slack`.
+const GIVE: &str = "slackLayer 1; slackRecovery 0.1;";
 
 #[derive(Args)]
 #[command(after_help = "Examples:
-  msdd bed run cases/column --out here           discrete elements: a quarter of an hour
-  msdd bed case cases/column bed --from here/elements.csv
+  msdd bed run cases/column --out here           DEM: a quarter of an hour
+  msdd bed case cases/column bed --from here/dem.csv
   bed/Allrun                                     the same bed by the solver: a second
 
-The solver's bed starts from what the discrete elements are at the start: porosity, stress, contacts per sphere, mobilised friction
+The solver's bed starts from the state of DEM: porosity, stress, contacts per sphere, mobilised friction
 and fabric. A bed between plates becomes a column of cells, a cylinder a wedge. The mesh ends where the centres of the first layer
-are, because a heated wall of the discrete elements holds these, and a sixth of a diameter further in at a heated floor; where heat
+are, because a heated wall of DEM holds these, and a sixth of a diameter further in at a heated floor; where heat
 goes along the axis to a plate that is not heated, an eighth of a diameter before that.")]
 pub struct Arguments {
-    /// Folder with elements.toml.
+    /// Folder with dem.toml.
     case: PathBuf,
     /// The new case folder; it must not exist yet, or be empty.
     folder: PathBuf,
-    /// Results of DEM, whose first row is the start. Default: elements.csv next to elements.toml.
+    /// Results of DEM, whose first row is the start. Default: dem.csv next to dem.toml.
     #[arg(long, value_name = "FILE")]
     from: Option<PathBuf>,
     /// Write into a folder that is not empty: files of the same name are replaced, all others stay.
@@ -49,9 +49,9 @@ pub struct Arguments {
 pub fn run(arguments: &Arguments) -> Result<(), CliError> {
     let whole = check_folder(&arguments.folder, arguments.force)?;
     let checkout = checkout(arguments.checkout.as_deref())?;
-    let scene = Scene::read(&arguments.case)?;
-    let from = arguments.from.clone().unwrap_or_else(|| arguments.case.join("elements.csv"));
-    let start = Start::read(&from)?;
+    let scene = DemCase::read(&arguments.case)?;
+    let from = arguments.from.clone().unwrap_or_else(|| arguments.case.join("dem.csv"));
+    let start = FirstRow::read(&from)?;
     let name = whole.file_name().unwrap_or_default().to_string_lossy().into_owned();
     let files = files(&arguments.case, &scene, &start, &name, &checkout)?;
     folder::write(&arguments.folder, &files)?;
@@ -64,7 +64,7 @@ pub fn run(arguments: &Arguments) -> Result<(), CliError> {
 }
 
 /// What the solver's case leaves out.
-fn notes(scene: &Scene) -> Vec<String> {
+fn notes(scene: &DemCase) -> Vec<String> {
     let friction = (scene.grains.wall_friction > 0.0 && scene.shell.is_some()).then(|| {
         format!(
             "walls have a friction of {}; a side that gives way has none in the solver's case",
@@ -85,17 +85,14 @@ fn notes(scene: &Scene) -> Vec<String> {
 /// Those of [`Geometry::new`].
 pub fn files(
     folder: &Path,
-    scene: &Scene,
-    start: &Start,
+    scene: &DemCase,
+    start: &FirstRow,
     name: &str,
     checkout: &Path,
 ) -> Result<Vec<File>, CliError> {
-    let geometry = Geometry::new(&folder.join(FILE), scene, start.depth)?;
+    let geometry = Geometry::new(&file_in(folder), scene, start.depth)?;
     let porosity = geometry.porosity(start);
-    let origin = format!(
-        "That of the discrete elements at the start, from {}: written by 'msdd bed case'",
-        start.file.display()
-    );
+    let origin = format!("As in DEM at the start, from {}: written by 'msdd bed case'", start.file.display());
     let stress = geometry.tensor(start.stress.map(|stress| -stress));
     let text = |path: &'static str, text: String| File { path, text, program: false };
     let dictionary = |path: &'static str, body: String| {
@@ -154,7 +151,7 @@ fn table(schedule: &Schedule, value: impl Fn(f64) -> String) -> String {
     }
 }
 
-fn temperature(scene: &Scene) -> String {
+fn temperature(scene: &DemCase) -> String {
     let start = plain(scene.time.initial_temperature);
     let mut walls = "    #includeEtc \"caseDicts/setConstraintTypes\"\n    \".*\"\n    {\n        type            zeroGradient;\n    }\n".to_string();
     for heated in &scene.heated {
@@ -182,7 +179,7 @@ fn property(of: &Property) -> String {
     }
 }
 
-fn properties(scene: &Scene, start: &Start, geometry: &Geometry) -> String {
+fn properties(scene: &DemCase, start: &FirstRow, geometry: &Geometry) -> String {
     let grains = &scene.grains;
     let fabric = geometry.tensor(start.fabric);
     let emissivity = grains
@@ -257,7 +254,7 @@ fn properties(scene: &Scene, start: &Start, geometry: &Geometry) -> String {
 }
 
 /// Where temperatures are recorded.
-pub fn probes(scene: &Scene, geometry: &Geometry) -> Vec<[f64; 3]> {
+pub fn probes(scene: &DemCase, geometry: &Geometry) -> Vec<[f64; 3]> {
     let record = &scene.record;
     let middle = 0.5 * (record.heights[0] + record.heights[1]);
     let at = |&distance: &f64| match record.wall.as_str() {
@@ -268,7 +265,7 @@ pub fn probes(scene: &Scene, geometry: &Geometry) -> Vec<[f64; 3]> {
     record.distances.iter().map(at).collect()
 }
 
-fn control(scene: &Scene, geometry: &Geometry) -> String {
+fn control(scene: &DemCase, geometry: &Geometry) -> String {
     let places: Vec<String> = probes(scene, geometry)
         .iter()
         .map(|[x, y, z]| format!("({} {} {})", plain(*x), plain(*y), plain(*z)))
@@ -278,7 +275,7 @@ fn control(scene: &Scene, geometry: &Geometry) -> String {
         "application     msddFoam;\nstartFrom       latestTime;\nstartTime       0;\nstopAt          endTime;\nendTime         {};\n\
          deltaT          {};\n\nadjustTimeStep  yes;\nmaxDeltaT       {};\nwriteControl    runTime;\nwriteInterval   {};\n\
          writePrecision  17;\ntimePrecision   8;\nrunTimeModifiable no;\n\nfunctions\n{{\n\
-         \x20   // Temperature where the discrete elements record it\n    probes\n    {{\n        type            probes;\n\
+         \x20   // Temperature where DEM records it\n    probes\n    {{\n        type            probes;\n\
          \x20       libs            (\"libsampling.so\");\n        fields          (T);\n        probeLocations  ({});\n\
          \x20       interpolationScheme cellPoint;\n        writeControl    writeTime;\n    }}\n\n\
          \x20   // Means where they take theirs\n    bulk\n    {{\n        type            volFieldValue;\n\
@@ -295,10 +292,10 @@ fn control(scene: &Scene, geometry: &Geometry) -> String {
     )
 }
 
-fn readme(scene: &Scene, start: &Start, name: &str) -> String {
+fn readme(scene: &DemCase, start: &FirstRow, name: &str) -> String {
     format!(
         "# Case {name}\n\nA bed of {} spheres of {} m as the solver sees it, written by `msdd bed case`. `./Allrun` runs it, `./Allclean` removes the results.\n\n\
-         It starts as the discrete elements of `{}` do. Temperatures where these record them go to `postProcessing/probes/0/T`, means of stress and conductivity where they take theirs to `postProcessing/bulk`, pressures on the walls to `postProcessing/wallPressure`.\n\
+         It starts as DEM of `{}` do. Temperatures where these record them go to `postProcessing/probes/0/T`, means of stress and conductivity where they take theirs to `postProcessing/bulk`, pressures on the walls to `postProcessing/wallPressure`.\n\
          Keys: the book's pages on constant/granularProperties and system.\n",
         scene.grains.number,
         plain(scene.grains.diameter),

@@ -1,8 +1,8 @@
-//! The bed of an `elements.toml` as the solver's mesh: a column of cells between plates, a wedge of a cylinder.
+//! The bed of an `dem.toml` as the solver's mesh: a column of cells between plates, a wedge of a cylinder.
 
-use super::start::Start;
+use super::start::FirstRow;
 use crate::error::CliError;
-use msdd_beds::scene::Scene;
+use msdd_beds::dem_case::DemCase;
 use msdd_case::numbers::plain;
 use msdd_rve::message::number;
 use std::fmt::Write;
@@ -42,7 +42,7 @@ impl Geometry {
     ///
     /// # Errors
     /// What the solver's mesh cannot have: sides of a box that are heated, averages and temperatures beyond its ends.
-    pub fn new(file: &Path, scene: &Scene, depth: f64) -> Result<Self, CliError> {
+    pub fn new(file: &Path, scene: &DemCase, depth: f64) -> Result<Self, CliError> {
         let wrong = |key: &str, value: String, allowed: &str| {
             CliError::Message(format!("{}: {key} = {value}, allowed: {allowed}", file.display()))
         };
@@ -122,7 +122,7 @@ impl Geometry {
     }
 
     /// Of the whole mesh: in a cylinder by the areas.
-    pub fn porosity(&self, start: &Start) -> f64 {
+    pub fn porosity(&self, start: &FirstRow) -> f64 {
         match (self.radii, start.porosity_outside) {
             (Some([_, inner, radius]), Some(outside)) => {
                 let share = (inner / radius).powi(2);

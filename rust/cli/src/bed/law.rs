@@ -4,8 +4,8 @@ use super::start::packings;
 use crate::error::CliError;
 use crate::spheres::beds::track;
 use clap::Args;
+use msdd_beds::dem_case::{DemCase, FILE, file_in};
 use msdd_beds::packings::column;
-use msdd_beds::scene::{FILE, Scene};
 use msdd_files::{check_target, list, read_text, write};
 use msdd_spheres::law::effective_modulus;
 use msdd_surrogate::spheres::law::Law;
@@ -21,14 +21,14 @@ use std::path::{Path, PathBuf};
   msdd bed run mybed --out mybed && msdd bed law mybed
   msdd bed law cases/beds --out results/law
 
-The law begins with stress, solid fraction, contacts and fabric of the first row of elements.csv, and follows the strain of the rows. No
+The law begins with stress, solid fraction, contacts and fabric of the first row of dem.csv, and follows the strain of the rows. No
 wall, no weight and no other place of the bed plays a part, so that differences are those of the law. Under a lid
 that presses, and in a shell, 'stress kept' follows the stress along the axis instead of the strain there: where the side leaves a bed
 under its weight, a small error of the strain changes the pressure by decades. 'jamming' is by how much the solid fraction without
 load has grown, in units of 1e-5: of the spheres from their strain and pressure, and of the law. 'shear' is the length of the
 path of the shear strain.")]
 pub struct Arguments {
-    /// Folders with elements.toml and elements-<seed>.csv, or elements.csv alone; or folders of such folders.
+    /// Folders with dem.toml and dem-<seed>.csv, or dem.csv alone; or folders of such folders.
     #[arg(required = true)]
     folders: Vec<PathBuf>,
     /// A model file of spheres; default: the one that is compiled in.
@@ -89,7 +89,7 @@ pub fn run(arguments: &Arguments) -> Result<(), CliError> {
 
 /// Folders of beds, and those within folders.
 pub(super) fn folders_of(given: &[PathBuf]) -> Result<Vec<PathBuf>, CliError> {
-    let is_bed = |folder: &Path| folder.join(FILE).is_file();
+    let is_bed = |folder: &Path| file_in(folder).is_file();
     let mut all = Vec::new();
     for folder in given {
         let before = all.len();
@@ -107,7 +107,7 @@ pub(super) fn folders_of(given: &[PathBuf]) -> Result<Vec<PathBuf>, CliError> {
 
 /// The results of the packings of a bed: the numbers of their seeds and the files, or the mean alone.
 pub(super) fn results_of(folder: &Path) -> Result<Vec<(Option<u64>, PathBuf)>, CliError> {
-    let mean = folder.join("elements.csv");
+    let mean = folder.join("dem.csv");
     match packings(folder) {
         Ok(all) => Ok(all.into_iter().map(|(seed, file)| (Some(seed), file)).collect()),
         Err(_) if mean.is_file() => Ok(vec![(None, mean)]),
@@ -116,7 +116,7 @@ pub(super) fn results_of(folder: &Path) -> Result<Vec<(Option<u64>, PathBuf)>, C
 }
 
 fn paths_of(law: &Law, folder: &Path) -> Result<Vec<Course>, CliError> {
-    let scene = Scene::read(folder)?;
+    let scene = DemCase::read(folder)?;
     let modulus = effective_modulus(scene.grains.young_modulus, scene.grains.poisson_ratio);
     let whole = folder.canonicalize().unwrap_or_else(|_| folder.to_path_buf());
     let bed = whole.file_name().unwrap_or_default().display().to_string();

@@ -4,7 +4,7 @@ mod files;
 pub(crate) mod foam;
 mod from_case;
 pub(crate) mod geometry;
-mod give;
+mod slack;
 mod law;
 mod moving;
 mod plot;
@@ -23,13 +23,13 @@ use std::path::{Path, PathBuf};
 pub enum Command {
     /// Pour a bed of equal spheres, press and turn it, heat it, and compare its temperatures with measured ones.
     Run(RunArguments),
-    /// Write a case folder of the solver for the bed of an elements.toml.
+    /// Write a case folder of the solver for the bed of an dem.toml.
     ///
     /// Walls, heating, lid and shell are those of the file. Fixed or moved plates have a slack of 1 diameter, of which a tenth
-    /// is recovered (give, giveBack): the mean of the beds that were measured, for any friction of the plates. `msdd bed give`
+    /// is recovered (slackLayer, slackRecovery): the mean of the beds that were measured, for any friction of the plates. `msdd bed slack`
     /// measures it for this bed. Fixed walls have the friction of a bed for wall_friction.
     Case(foam::Arguments),
-    /// Write the elements.toml of a case of the solver with spheres, for `msdd bed run`.
+    /// Write the dem.toml of a case of the solver with spheres, for `msdd bed run`.
     ///
     /// The reverse of `msdd bed case`: box or cylinder, spheres, gas, walls with a temperature, gravity, lid, shell and
     /// friction of walls. Heat from inside and other conditions of walls are left out and named.
@@ -39,7 +39,8 @@ pub enum Command {
     /// It is what the plates have moved towards each other beyond the strain inside times the depth, over the strain inside
     /// without the own growth of the spheres. The numbers are valid for the depth between the plates; where a mesh is less
     /// deep, its walls take them times its depth over that one.
-    Give(give::Arguments),
+    #[command(alias = "give")]
+    Slack(slack::Arguments),
     /// Follow the law of spheres alone along the strain that 'msdd bed run' recorded, and compare its pressure with the spheres'.
     Law(law::Arguments),
 }
@@ -51,9 +52,9 @@ pub enum Command {
   msdd bed run cases/store --packings 2  the mean of two packings, and how much they differ
 
 The folder holds bed.toml (keys: the book, Reference, Beds by DEM) and, if there is an experiment, its
-measurements. If it holds elements.toml instead, a bed whose walls move while heat flows, the only result is elements.csv; with
---packings it is the mean, elements-scatter.csv is the standard deviation of one packing, and elements-<seed>.csv are the single
-ones: what is there already, from the same elements.toml, is not computed again. Into the folder of results of a bed.toml go
+measurements. If it holds dem.toml instead, a bed whose walls move while heat flows, the only result is dem.csv; with
+--packings it is the mean, dem-scatter.csv is the standard deviation of one packing, and dem-<seed>.csv are the single
+ones: what is there already, from the same dem.toml, is not computed again. Into the folder of results of a bed.toml go
   temperature.csv   T over time at the probes, without and with contact resistance at the plate
   comparison.csv    differences from the measurements
   bed.json          the packing, heat and its balance, and how each stage came to rest
@@ -63,7 +64,7 @@ ones: what is there already, from the same elements.toml, is not computed again.
 The plate is taken in two ways: 'held', the first layer of grains has its temperature, the most that any plate can do; and
 'resisting', heat passes through contacts and gas between plate and grains.")]
 pub struct RunArguments {
-    /// Folder with bed.toml or elements.toml.
+    /// Folder with bed.toml or dem.toml.
     case: PathBuf,
     /// Folder for the results. Default: results/beds/ and the name of the case.
     #[arg(long, value_name = "DIR")]
@@ -71,13 +72,13 @@ pub struct RunArguments {
     /// Seed of the packing. Default: from the case.
     #[arg(long, value_parser = clap::value_parser!(u64).range(..=i64::MAX as u64))]
     seed: Option<u64>,
-    /// Packings with this many seeds, from the case's seed on; with an elements.toml. Default: one packing.
+    /// Packings with this many seeds, from the case's seed on; with an dem.toml. Default: one packing.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=1000))]
     packings: Option<u32>,
     /// Compute it again with each value of the blocks [[vary]] of the case, one changed at a time.
     #[arg(long)]
     vary: bool,
-    /// Begin a run of more than an hour without asking; with an elements.toml.
+    /// Begin a run of more than an hour without asking; with an dem.toml.
     #[arg(long)]
     yes: bool,
     /// Number of threads; the results do not depend on it.
@@ -90,18 +91,18 @@ pub fn run(command: &Command) -> Result<(), CliError> {
         Command::Run(arguments) => run_case(arguments),
         Command::Case(arguments) => foam::run(arguments),
         Command::FromCase(arguments) => from_case::run(arguments),
-        Command::Give(arguments) => give::run(arguments),
+        Command::Slack(arguments) => slack::run(arguments),
         Command::Law(arguments) => law::run(arguments),
     }
 }
 
 fn run_case(arguments: &RunArguments) -> Result<(), CliError> {
     let folder = &arguments.case;
-    if folder.join(msdd_beds::scene::FILE).exists() {
+    if msdd_beds::dem_case::file_in(folder).exists() {
         return run_moving(arguments);
     }
     if arguments.packings.is_some() {
-        return Err(CliError::Message("--packings, allowed: with an elements.toml".to_string()));
+        return Err(CliError::Message("--packings, allowed: with an dem.toml".to_string()));
     }
     let mut case = BedCase::read(folder)?;
     if let Some(seed) = arguments.seed {

@@ -1,15 +1,15 @@
-//! `msdd bed run` of a folder with `elements.toml`: a bed whose walls move while heat flows.
+//! `msdd bed run` of a folder with `dem.toml`: a bed whose walls move while heat flows.
 
 use crate::confirm;
 use crate::error::CliError;
 use crate::progress::Progress;
 use msdd_beds::cost::estimate;
-use msdd_beds::coupled::{MOST_OVERLAP, Prepared, Row, Run, prepare, run, side_friction};
+use msdd_beds::coupled::{MAX_OVERLAP, Prepared, Row, Run, prepare, run, side_friction};
+use msdd_beds::dem_case::{DemCase, file_in};
 use msdd_beds::exchange::Exchange;
 use msdd_beds::mobilised::mobilised;
 use msdd_beds::packings::{at_start, join};
 use msdd_beds::rows::elements;
-use msdd_beds::scene::{FILE, Scene};
 use msdd_files::{check_writable, read_text, write};
 use msdd_surrogate::document::hash;
 use std::fmt::Write;
@@ -17,8 +17,8 @@ use std::path::Path;
 use std::time::Instant;
 
 /// Names of the files of results: of one packing or the mean of several, and the scatter of several.
-const RESULTS: &str = "elements.csv";
-const SCATTER: &str = "elements-scatter.csv";
+const RESULTS: &str = "dem.csv";
+const SCATTER: &str = "dem-scatter.csv";
 /// Shares of the stages and of the run in the progress, in hundredths.
 const STAGES: [(&str, u64, u64); 3] = [("pour", 0, 20), ("lid", 20, 5), ("harden", 25, 15)];
 const RUN: u64 = 40;
@@ -32,7 +32,7 @@ pub struct Effort {
 
 impl Effort {
     /// Asks before packings of a bed that take long.
-    fn ask(self, scene: &Scene, packings: f64) -> Result<(), CliError> {
+    fn ask(self, scene: &DemCase, packings: f64) -> Result<(), CliError> {
         let advice = "Fewer spheres (grains.number, with a smaller base or radius), a softer simulated_young_modulus, or fewer intervals and \
                       steps take less";
         confirm::long_run(packings * estimate(scene, self.threads).seconds, advice, self.yes)
@@ -67,12 +67,12 @@ pub fn compute_packings(
         CliError::Message(format!("--packings {count}: seeds from {} on would be too large", first.seed))
     })?;
     let seeds: Vec<u64> = (first.seed..=last).collect();
-    let file = |seed: u64| out.join(format!("elements-{seed}.csv"));
+    let file = |seed: u64| out.join(format!("dem-{seed}.csv"));
     let targets = [out.join(RESULTS), out.join(SCATTER)];
     for target in targets.iter().cloned().chain(seeds.iter().map(|&seed| file(seed))) {
         check_writable(&target)?;
     }
-    let input = read_text(&folder.join(FILE))?;
+    let input = read_text(&file_in(folder))?;
     let mut tables = Vec::new();
     for (number, &seed) in seeds.iter().enumerate() {
         let (begin, target) = (origin(&input, seed), file(seed));
@@ -82,7 +82,7 @@ pub fn compute_packings(
             continue;
         }
         outln!("packing {} of {count}, seed {seed}", number + 1);
-        let text = begin + &simulate(folder, &Scene { seed, ..first.clone() }, effort.threads)?;
+        let text = begin + &simulate(folder, &DemCase { seed, ..first.clone() }, effort.threads)?;
         write(&target, text.as_bytes())?;
         tables.push(text);
     }
@@ -101,14 +101,14 @@ fn origin(input: &str, seed: u64) -> String {
     format!("# of {}, seed {seed}, msdd {}\n", hash(input), env!("CARGO_PKG_VERSION"))
 }
 
-fn scene(folder: &Path, seed: Option<u64>) -> Result<Scene, CliError> {
-    let scene = Scene::read(folder)?;
-    Ok(Scene { seed: seed.unwrap_or(scene.seed), ..scene })
+fn scene(folder: &Path, seed: Option<u64>) -> Result<DemCase, CliError> {
+    let scene = DemCase::read(folder)?;
+    Ok(DemCase { seed: seed.unwrap_or(scene.seed), ..scene })
 }
 
 /// The table of a packing; prints a summary.
-fn simulate(folder: &Path, scene: &Scene, threads: usize) -> Result<String, CliError> {
-    let failed = |source| CliError::Bed { file: folder.join(FILE), source };
+fn simulate(folder: &Path, scene: &DemCase, threads: usize) -> Result<String, CliError> {
+    let failed = |source| CliError::Bed { file: file_in(folder), source };
     let mut progress = Progress::new("bed", 1000);
     let mut show = |percent: f64, note: &str| progress.set((10.0 * percent) as u64, 1000, note);
     let begin = Instant::now();
@@ -128,7 +128,7 @@ fn simulate(folder: &Path, scene: &Scene, threads: usize) -> Result<String, CliE
 }
 
 /// What the law of spheres needs to know of the start, in words.
-fn start(scene: &Scene, mobilisation: f64, [first, second, third]: [f64; 3]) -> String {
+fn start(scene: &DemCase, mobilisation: f64, [first, second, third]: [f64; 3]) -> String {
     let axes = if scene.record.radius.is_some() { "radius, around the axis, axis" } else { "x, y, z" };
     format!(
         "friction at the start: {mobilisation:.3} of what the contacts bear before they slide, for the law of spheres 'mobilised {:.2};'\n\
@@ -137,7 +137,7 @@ fn start(scene: &Scene, mobilisation: f64, [first, second, third]: [f64; 3]) -> 
     )
 }
 
-fn summary(scene: &Scene, prepared: &Prepared, found: &Run) -> String {
+fn summary(scene: &DemCase, prepared: &Prepared, found: &Run) -> String {
     let mut text = format!("{} grains, seed {}\n", prepared.simulation.spheres.len(), scene.seed);
     for (stage, rest) in &prepared.stages {
         let _ = writeln!(text, "{stage:<8}{:>9} steps", rest.steps);
@@ -163,13 +163,13 @@ fn summary(scene: &Scene, prepared: &Prepared, found: &Run) -> String {
     found.rows.iter().step_by(shown).for_each(|row| line(&mut text, row));
     let worst = found.rows.iter().map(|row| row.unbalanced).fold(0.0, f64::max);
     let _ = writeln!(text, "largest force out of balance: {:.2} % of that on the lid", 100.0 * worst);
-    if found.overlap > MOST_OVERLAP {
+    if found.overlap > MAX_OVERLAP {
         let _ = writeln!(
             text,
             "Warning: spheres overlap by up to {:.1} % of their radius; Hertz's law is an extrapolation above {:.0} %, and forces and \
              stresses are too low",
             100.0 * found.overlap,
-            100.0 * MOST_OVERLAP
+            100.0 * MAX_OVERLAP
         );
     }
     if found.hurried + found.restless > 0 {

@@ -1,4 +1,4 @@
-//! What a bed of discrete elements is like at the start, as the law of spheres needs it.
+//! What a bed of DEM is like at the start, as the law of spheres needs it.
 
 use crate::error::CliError;
 use msdd_beds::mobilised::mobilised;
@@ -7,9 +7,9 @@ use msdd_files::{list, read_text};
 use msdd_rve::message::number;
 use std::path::{Path, PathBuf};
 
-/// The first row of an `elements.csv`. SI units, compression positive; vectors along x, y, z, in a cylinder along the radius,
+/// The first row of an `dem.csv`. SI units, compression positive; vectors along x, y, z, in a cylinder along the radius,
 /// around the axis, and along it.
-pub struct Start {
+pub struct FirstRow {
     pub file: PathBuf,
     pub depth: f64,
     pub stress: [f64; 3],
@@ -31,7 +31,7 @@ const POROSITY: [f64; 2] = [0.2, 0.7];
 /// By how much the trace of a fabric may differ from 1: it is written rounded.
 const UNIT_TRACE: f64 = 0.01;
 
-impl Start {
+impl FirstRow {
     /// Reads the results of `msdd bed run`.
     ///
     /// # Errors
@@ -41,7 +41,7 @@ impl Start {
         let within = |name: &str, [low, high]: [f64; 2]| {
             let value = at_start(&text, name).ok_or_else(|| {
                 CliError::Message(format!(
-                    "{}: no column {name} with a first value, allowed: elements.csv of this version's 'msdd bed run'",
+                    "{}: no column {name} with a first value, allowed: dem.csv of this version's 'msdd bed run'",
                     file.display()
                 ))
             })?;
@@ -88,14 +88,14 @@ impl Start {
 /// A folder that cannot be read, or has no such file.
 pub fn packings(folder: &Path) -> Result<Vec<(u64, PathBuf)>, CliError> {
     let seed = |file: &PathBuf| {
-        file.file_name()?.to_str()?.strip_prefix("elements-")?.strip_suffix(".csv")?.parse::<u64>().ok()
+        file.file_name()?.to_str()?.strip_prefix("dem-")?.strip_suffix(".csv")?.parse::<u64>().ok()
     };
     let mut all: Vec<(u64, PathBuf)> =
         list(folder)?.into_iter().filter_map(|file| Some((seed(&file)?, file))).collect();
     all.sort();
     match all.is_empty() {
         true => Err(CliError::Message(format!(
-            "{}: no file elements-<seed>.csv, allowed: results of 'msdd bed run --packings'",
+            "{}: no file dem-<seed>.csv, allowed: results of 'msdd bed run --packings'",
             folder.display()
         ))),
         false => Ok(all),
@@ -112,7 +112,7 @@ mod tests {
         let text =
             "time,fabric_1,fabric_2,fabric_3,depth,stress_1,stress_2,stress_3\n0,0.3,0.3,0.4,0.1,1,1,-2.8\n";
         msdd_files::write(&file, text.as_bytes()).unwrap();
-        let error = Start::read(&file).err().unwrap().to_string();
+        let error = FirstRow::read(&file).err().unwrap().to_string();
         std::fs::remove_file(&file).unwrap();
         assert!(
             error.ends_with("stress_3 = -2.8 in the first row, allowed: 0 to 1000000000000000"),

@@ -9,7 +9,7 @@ use msdd_surrogate::kernel::LANES;
 use msdd_surrogate::models;
 use msdd_surrogate::spheres::model::{Answers, Block, SphereModel, Wanted};
 use msdd_surrogate::spheres::state;
-use msdd_surrogate::surrogate::{Batch, Known, MAX_STATE, Surrogate, evaluate_batch};
+use msdd_surrogate::surrogate::{Batch, InitialData, MAX_STATE, Surrogate, evaluate_batch};
 use serde_json::{Map, Value, json};
 use std::path::PathBuf;
 use std::time::Instant;
@@ -39,7 +39,7 @@ pub fn run(arguments: &Arguments) -> Result<(), CliError> {
     for file in &arguments.model {
         let failed = |source| CliError::Model { file: file.clone(), source };
         let text = read_text(file)?;
-        let (name, hash, times) = if SphereModel::is_meant(&text) {
+        let (name, hash, times) = if SphereModel::has_sphere_schema(&text) {
             let model = SphereModel::read(&text).map_err(failed)?;
             let times = BATCHES.map(|cells| {
                 let [plain, tangent] = [false, true].map(|tangent| spheres(&model, cells, queries, tangent));
@@ -92,7 +92,7 @@ fn discs(model: &dyn Surrogate, cells: usize, queries: usize, with_tangent: bool
     let start = |cell: usize| {
         let porosity = 0.08 + 0.1 * (cell % 97) as f64 / 97.0;
         let fabric_index = 0.1 * ((cell % 31) as f64 / 31.0 - 0.5);
-        model.initial_state(&Known { porosity, fabric_index, ..Known::default() })
+        model.initial_state(&InitialData { porosity, fabric_index, ..InitialData::default() })
     };
     let states: Vec<[f64; MAX_STATE]> = (0..cells).map(start).collect();
     let names = model.state_names().len();
@@ -127,7 +127,7 @@ fn spheres(model: &SphereModel, cells: usize, queries: usize, with_tangent: bool
         let solid = 0.59 + 0.04 * (cell % 97) as f64 / 97.0;
         let pressure = 1e-7 * 1.2_f64.powi((cell % 31) as i32);
         let stress = [pressure, pressure, 1.5 * pressure, 0.0, 0.0, 0.0];
-        model.initial_state(solid, stress, &state::Known::default())
+        model.initial_state(solid, stress, &state::PackingData::default())
     };
     let block = |first: usize| {
         let mut block = Block::default();

@@ -10,7 +10,7 @@ use msdd_rve::{
     Strains, follow, pack_as,
 };
 use msdd_surrogate::models;
-use msdd_surrogate::surrogate::{Known, Surrogate};
+use msdd_surrogate::surrogate::{InitialData, Surrogate};
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 
@@ -26,7 +26,7 @@ pub struct Arguments {
     /// Packings to average over.
     #[arg(long, default_value_t = 8, value_parser = clap::value_parser!(u64).range(1..=1000))]
     packings: u64,
-    /// Model file to compare with the discrete elements while contacts open; may be given several times.
+    /// Model file to compare with DEM while contacts open; may be given several times.
     #[arg(long, value_name = "FILE")]
     model: Vec<PathBuf>,
     /// JSON file to write. Default: the results are printed.
@@ -184,10 +184,10 @@ fn averages(packing: &Packed) -> Averages {
     msdd_rve::homogenise(&packing.simulation, RegionKind::default())
 }
 
-/// K/k (mean of xx and yy, resistor network solved) and pressure [Pa], of the discrete elements and of each model.
+/// K/k (mean of xx and yy, resistor network solved) and pressure [Pa], of DEM and of each model.
 type Point = Vec<[f64; 2]>;
 
-/// Contracts a packing from the packed state, stop by stop, by discrete elements and by the models.
+/// Contracts a packing from the packed state, stop by stop, by DEM and by the models.
 fn unjammed(packing: &Packed, models: &[Box<dyn Surrogate>]) -> Result<Vec<Point>, CliError> {
     let start = averages(packing);
     let path: Vec<Strains> = (1..=STOPS).map(|k| Strains::thermal(STOP * k as f64)).collect();
@@ -212,7 +212,7 @@ fn composed(model: &dyn Surrogate, start: &Averages) -> Vec<[f64; 2]> {
     let unit = |radius: f64| Material::default().young_modulus * radius;
     let reduced =
         [start.stress_xx, start.stress_yy, start.stress_xy].map(|stress| stress / unit(start.mean_radius));
-    let known = Known {
+    let known = InitialData {
         porosity: start.porosity,
         fabric_index: start.fabric_index,
         fabric_xy: start.fabric_xy,
@@ -239,7 +239,7 @@ fn composed(model: &dyn Surrogate, start: &Averages) -> Vec<[f64; 2]> {
 }
 
 fn unjamming_rows(packings: &[Vec<Point>], models: &[&str]) -> Vec<Value> {
-    let names: Vec<&str> = [&["discrete elements"], models].concat();
+    let names: Vec<&str> = [&["DEM"], models].concat();
     let reached = packings.iter().map(Vec::len).min().unwrap_or(0);
     let row = |stop: usize| {
         let of = |who: usize, what: usize| -> f64 {

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 #[derive(Args)]
 #[command(
-    after_help = "Each line is an error (the solver refuses the case) or a doubt (the solver runs it, but the result may not be what was meant), with
+    after_help = "Each line is an error (the solver refuses the case) or a warning (the solver runs it, but the result may not be what was meant), with
 file, key, value and what is allowed. The exit status is 1 with errors, 0 without. 'msddFoam -dry-run' makes all that a run needs, on the
 mesh of the case or, where there is none, on that of blockMeshDict in a copy. No step is computed and the case is left as it is.
 Libraries, plug-ins and coded conditions that the case names are loaded.
@@ -44,18 +44,18 @@ fn report(folder: &Path, found: &[Finding]) -> Result<(), CliError> {
     }
     let count = |severity| found.iter().filter(|finding| finding.severity == severity).count();
     let many = |count: usize, what: &str| format!("{count} {what}{}", if count == 1 { "" } else { "s" });
-    let (errors, doubtful) = (count(Severity::Error), count(Severity::Doubt));
-    let doubts = many(doubtful, "doubt");
+    let (errors, warned) = (count(Severity::Error), count(Severity::Warning));
+    let warnings = many(warned, "warning");
     let folder = folder.display();
     if errors > 0 {
         let errors = many(errors, "error");
         return Err(CliError::Message(format!(
-            "{folder}: {errors} and {doubts}; the case will not run as it is"
+            "{folder}: {errors} and {warnings}; the case will not run as it is"
         )));
     }
-    match doubtful {
-        0 => outln!("{folder}: checked, nothing is missing, out of range or doubtful"),
-        _ => outln!("{folder}: checked, no errors, {doubts}"),
+    match warned {
+        0 => outln!("{folder}: checked, nothing is missing, out of range or warned"),
+        _ => outln!("{folder}: checked, no errors, {warnings}"),
     }
     Ok(())
 }

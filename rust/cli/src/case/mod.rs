@@ -1,14 +1,14 @@
 //! `msdd case`: makes and checks case folders of the solver.
 
-mod ask;
 mod check;
-mod grain_wishes;
+mod common_options;
+mod disc_options;
 mod new;
+mod prompts;
 mod show;
 mod solve;
-mod sphere_wishes;
+mod sphere_options;
 mod table;
-mod wishes;
 
 use crate::error::CliError;
 use clap::Subcommand;
@@ -34,7 +34,7 @@ pub enum Command {
     /// the first step adds the weight. A wall has its temperature where the mesh ends: the resistance between a wall and the
     /// first spheres is left out.
     New(Box<new::Arguments>),
-    /// Check a case folder before the run: lists what is missing, out of range or doubtful.
+    /// Check a case folder before the run: lists what is missing, out of range or warned.
     Check(check::Arguments),
     /// Find the cheapest settings of the solver for a wanted accuracy of T, by short runs on the case itself, and run them.
     ///

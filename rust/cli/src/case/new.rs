@@ -1,8 +1,8 @@
 //! `msdd case new`.
 
-use super::ask::Asker;
-use super::sphere_wishes::{self, SphereWishes};
-use super::wishes::{Wishes, summary};
+use super::common_options::{CommonOptions, summary};
+use super::prompts::Prompter;
+use super::sphere_options::{self, SphereOptions};
 use crate::error::CliError;
 use crate::progress::Progress;
 use clap::Args;
@@ -10,7 +10,7 @@ use msdd_case::folder::{self, File, check_folder, files};
 use msdd_case::grains::{PRESETS, Preset};
 use msdd_case::numbers::plain;
 use msdd_case::packing::{Effort, pack};
-use msdd_case::scene::Scene;
+use msdd_case::scene::DiscCase;
 use msdd_case::spheres;
 use msdd_case::spheres::material::MATERIALS;
 use msdd_case::values::packing_rows;
@@ -62,7 +62,7 @@ pub struct Arguments {
     #[arg(long, value_name = "DIR")]
     checkout: Option<PathBuf>,
     #[command(flatten)]
-    wishes: Wishes,
+    wishes: CommonOptions,
     /// Number of boxes of 500 discs that are packed to find the initial state; their averages are averaged. Default: 16.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1000), help_heading = "Packing at the start")]
     packings: Option<u32>,
@@ -70,7 +70,7 @@ pub struct Arguments {
     #[arg(long, help_heading = "Packing at the start")]
     seed: Option<u64>,
     #[command(flatten)]
-    sphere_wishes: SphereWishes,
+    sphere_wishes: SphereOptions,
 }
 
 fn threads() -> u32 {
@@ -86,11 +86,11 @@ pub fn run(arguments: &Arguments) -> Result<(), CliError> {
     let whole = check_folder(folder, arguments.force)?;
     let checkout = checkout(arguments.checkout.as_deref())?;
     let terminal = std::io::stdin().is_terminal() && std::io::stdout().is_terminal();
-    let asker = Asker { interactive: arguments.ask || (terminal && !arguments.yes) };
+    let prompter = Prompter { interactive: arguments.ask || (terminal && !arguments.yes) };
     let name = whole.file_name().unwrap_or_default().to_string_lossy();
-    let made = match asks_for_spheres(arguments, &asker)? {
-        true => spheres_made(arguments, &asker, &name, &checkout)?,
-        false => discs_made(arguments, &asker, &name, &checkout)?,
+    let made = match asks_for_spheres(arguments, &prompter)? {
+        true => spheres_made(arguments, &prompter, &name, &checkout)?,
+        false => discs_made(arguments, &prompter, &name, &checkout)?,
     };
     folder::write(folder, &made)?;
     outln!("written: {}", folder.display());
@@ -109,11 +109,11 @@ fn next_steps(folder: &Path, name: &str) -> String {
     )
 }
 
-fn asks_for_spheres(arguments: &Arguments, asker: &Asker) -> Result<bool, CliError> {
+fn asks_for_spheres(arguments: &Arguments, prompter: &Prompter) -> Result<bool, CliError> {
     let help = "The bed is of equal spheres with gas between them, in space; or of discs in the plane, the model material of the paper.";
     // Scripts that do not say what they want get discs, as ever.
-    let proposal = if asker.interactive { "spheres" } else { "discs" };
-    asker.value(arguments.spheres.then_some(true), help, "Grains (spheres or discs)", proposal, |text| {
+    let proposal = if prompter.interactive { "spheres" } else { "discs" };
+    prompter.value(arguments.spheres.then_some(true), help, "Grains (spheres or discs)", proposal, |text| {
         match text {
             "spheres" => Ok(true),
             "discs" => Ok(false),
@@ -124,7 +124,7 @@ fn asks_for_spheres(arguments: &Arguments, asker: &Asker) -> Result<bool, CliErr
 
 fn spheres_made(
     arguments: &Arguments,
-    asker: &Asker,
+    prompter: &Prompter,
     name: &str,
     checkout: &Path,
 ) -> Result<Vec<File>, CliError> {
@@ -139,8 +139,8 @@ fn spheres_made(
         let message = format!("{option} cannot be used with --spheres: it belongs to discs");
         return Err(CliError::Message(message));
     }
-    let scene = arguments.sphere_wishes.scene(&arguments.wishes, asker)?;
-    outln!("{}", sphere_wishes::summary(&scene)?);
+    let scene = arguments.sphere_wishes.scene(&arguments.wishes, prompter)?;
+    outln!("{}", sphere_options::summary(&scene)?);
     for note in scene.notes() {
         outln!("Note: {note}");
     }
@@ -149,11 +149,11 @@ fn spheres_made(
 
 fn discs_made(
     arguments: &Arguments,
-    asker: &Asker,
+    prompter: &Prompter,
     name: &str,
     checkout: &Path,
 ) -> Result<Vec<File>, CliError> {
-    let scene = arguments.wishes.scene(asker)?;
+    let scene = arguments.wishes.scene(prompter)?;
     outln!("{}", summary(&scene));
     let packing = packed(&scene, arguments)?;
     outln!(
@@ -167,7 +167,7 @@ fn discs_made(
     Ok(files(&scene, &packing, name, checkout))
 }
 
-fn packed(scene: &Scene, arguments: &Arguments) -> Result<msdd_case::packing::Packing, CliError> {
+fn packed(scene: &DiscCase, arguments: &Arguments) -> Result<msdd_case::packing::Packing, CliError> {
     let boxes = arguments.packings.unwrap_or(PACKINGS) as usize;
     let progress = Mutex::new(Progress::new("packing boxes of grains", boxes as u64));
     let watch = |done: usize, all: usize| {

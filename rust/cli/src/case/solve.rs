@@ -9,11 +9,11 @@ use msdd_choice::found::{Differences, Found, Share, Values, difference};
 use msdd_choice::interval;
 use msdd_choice::quantity::Quantity;
 use msdd_choice::record::{self, Record, sentence};
-use msdd_choice::runs::Wishes;
-use msdd_choice::scene::{ACCURACIES, Scene};
+use msdd_choice::runs::SearchTarget;
 use msdd_choice::search::{KEYS, find};
 use msdd_choice::settings::{Level, Settings};
 use msdd_choice::trial::{self, Outcome, Purpose};
+use msdd_choice::user_case::{ACCURACIES, UserCase};
 use msdd_choice::{ChoiceError, Missed};
 use msdd_files::Lock;
 use msdd_rve::message::number;
@@ -67,7 +67,7 @@ fn percent(text: &str) -> Result<f64, String> {
 
 pub fn run(arguments: &Arguments) -> Result<(), CliError> {
     let failed = |error: ChoiceError| CliError::Message(error.to_string());
-    let mut scene = Scene::read(&arguments.folder).map_err(failed)?;
+    let mut scene = UserCase::read(&arguments.folder).map_err(failed)?;
     if arguments.choose_mechanics {
         scene.moves = None;
     }
@@ -93,12 +93,12 @@ struct Wanted {
 }
 
 /// A folder beside the case.
-pub(crate) fn beside(scene: &Scene, ending: &str) -> PathBuf {
+pub(crate) fn beside(scene: &UserCase, ending: &str) -> PathBuf {
     let name = scene.folder.file_name().unwrap_or_default().to_string_lossy();
     scene.folder.with_file_name(format!("{name}.{ending}"))
 }
 
-fn solve(scene: &Scene, wanted: Wanted, arguments: &Arguments) -> Result<(), ChoiceError> {
+fn solve(scene: &UserCase, wanted: Wanted, arguments: &Arguments) -> Result<(), ChoiceError> {
     let accuracy = wanted.accuracy;
     let chosen = beside(scene, "chosen");
     let lock = Lock::take(&chosen)?;
@@ -170,7 +170,7 @@ const REPEATS: usize = 2;
 
 /// Searches for the wanted accuracy, or else for the best that can be had.
 fn search(
-    scene: &Scene,
+    scene: &UserCase,
     wanted: Wanted,
     checksum: String,
     lock: &Lock,
@@ -224,10 +224,10 @@ impl Wanted {
     }
 }
 
-fn search_once(scene: &Scene, wanted: Wanted, lock: &Lock) -> Result<(Found, Differences), ChoiceError> {
+fn search_once(scene: &UserCase, wanted: Wanted, lock: &Lock) -> Result<(Found, Differences), ChoiceError> {
     let Wanted { accuracy, pressure } = wanted;
     let (bed, law) = (scene.bed.clone(), Law::shipped(scene.bed.kind));
-    let wishes = Wishes {
+    let wishes = SearchTarget {
         accuracy,
         pressure,
         cells: scene.directions(),
@@ -264,7 +264,7 @@ fn short(value: f64) -> String {
 
 /// Makes the case of a combination in a folder, and runs it.
 pub(crate) fn attempt(
-    scene: &Scene,
+    scene: &UserCase,
     settings: &Settings,
     range: Option<f64>,
     folder: &Path,
@@ -278,7 +278,7 @@ pub(crate) fn attempt(
 
 /// A run with about half the cells along each direction of the chosen one, if there can be fewer, and by what factor they are fewer along
 /// that of the directions where it is least.
-fn half(scene: &Scene, record: &Record, lock: &Lock) -> Result<Option<(Outcome, f64)>, ChoiceError> {
+fn half(scene: &UserCase, record: &Record, lock: &Lock) -> Result<Option<(Outcome, f64)>, ChoiceError> {
     let settings = &record.found.settings;
     let cells = scene.directions();
     let coarser =

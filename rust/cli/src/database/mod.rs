@@ -167,7 +167,7 @@ fn make(arguments: &GenerateArguments) -> Result<(), CliError> {
     arguments.simd.apply()?;
     arguments.timing.iter().try_for_each(|timing| check_target(timing))?;
     let (text, file) = (read_text(&arguments.plan)?, arguments.plan.display().to_string());
-    match SpherePlan::is_meant(&text) {
+    match SpherePlan::has_sphere_schema(&text) {
         true => make_rows(arguments, &SpherePlan::parse(&text, &file)?),
         false => make_rows(arguments, &Plan::parse(&text, &file)?),
     }

@@ -7,10 +7,10 @@ use msdd_choice::ChoiceError;
 use msdd_choice::bands::{CONDUCTIVITY, LEVEL, Law, Lengths, Numbers, Units, sensitivity};
 use msdd_choice::calibrate::{Coverage, Row, coverage, fit, quantile};
 use msdd_choice::quantity::Quantity;
-use msdd_choice::scene::Scene;
 use msdd_choice::series::Series;
 use msdd_choice::settings::{Level, Settings};
 use msdd_choice::trial::{self, Outcome};
+use msdd_choice::user_case::UserCase;
 use msdd_files::{Column, Lock, names, write};
 use msdd_reference::scenes::{PlannedScene, SceneResults};
 use std::collections::BTreeMap;
@@ -92,7 +92,7 @@ impl Windows {
 }
 
 /// One run of the solver in a case folder, on the mesh of the case.
-pub(super) fn run(scene: &Scene, range: f64, conductivity: f64) -> Result<Outcome, ChoiceError> {
+pub(super) fn run(scene: &UserCase, range: f64, conductivity: f64) -> Result<Outcome, ChoiceError> {
     let levels = vec![Level::Halved(0); scene.directions().len()];
     let settings = Settings { conductivity, ..Settings::new(levels, TOLERANCE, true) };
     let folder = beside(scene, "trial");
@@ -110,7 +110,7 @@ fn rows(
     range: f64,
 ) -> Result<BTreeMap<Quantity, Vec<Row>>, CliError> {
     let failed = |error: ChoiceError| CliError::Message(error.to_string());
-    let mut scene = Scene::read(folder).map_err(failed)?;
+    let mut scene = UserCase::read(folder).map_err(failed)?;
     let windows = Windows::of(results)?;
     scene.points.extend(windows.points(scene.points[0][2]));
     let discs = results.packing.column("discs").and_then(|values| values.first().copied());

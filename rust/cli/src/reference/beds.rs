@@ -1,23 +1,23 @@
-//! `msdd reference beds`: sets the solver beside beds of spheres that were computed by discrete elements, and fits its error bands.
+//! `msdd reference beds`: sets the solver beside beds of spheres that were computed by DEM, and fits its error bands.
 
 use super::bands::{Found, Group, fit_law, print_coverage, run as attempt_run, write_law};
 use super::scenes::solve;
 use crate::bed::foam::{self, probes};
 use crate::bed::geometry::Geometry;
-use crate::bed::start::{Start, packings};
+use crate::bed::start::{FirstRow, packings};
 use crate::case::checkout;
 use crate::error::CliError;
 use clap::Args;
+use msdd_beds::dem_case::{DemCase, file_in};
 use msdd_beds::packings::column;
-use msdd_beds::scene::{FILE, Scene as Bed};
 use msdd_case::folder;
 use msdd_case::numbers::plain;
 use msdd_choice::ChoiceError;
 use msdd_choice::bands::{CONDUCTIVITY, Lengths, Units, sensitivity};
 use msdd_choice::calibrate::Row;
 use msdd_choice::quantity::Quantity;
-use msdd_choice::scene::Scene;
 use msdd_choice::series::Series;
+use msdd_choice::user_case::UserCase;
 use msdd_files::{Column, read_text, write};
 use msdd_reference::scenes::{BedPlan, PlannedBed};
 use std::fmt::Write as _;
@@ -50,11 +50,11 @@ const FILLED: f64 = 0.6;
 #[derive(Args)]
 #[command(
     after_help = "Example: msdd reference beds --plan cases/beds/plan.toml --out results/beds-by-solver
-The discrete elements are results of 'msdd bed run'; cases/beds/make computes those that are not there."
+DEM results are made by 'msdd bed run'; cases/beds/make computes those that are not there."
 )]
 pub struct Arguments {
-    /// The plan: a TOML file with blocks [[scenes]] of a name and a use. Beside it stands a folder of each name with elements.toml and
-    /// the files elements-<seed>.csv of its packings.
+    /// The plan: a TOML file with blocks [[scenes]] of a name and a use. Beside it stands a folder of each name with dem.toml and
+    /// the files dem-<seed>.csv of its packings.
     #[arg(long, value_name = "FILE")]
     plan: PathBuf,
     /// Folder for the solver's cases.
@@ -86,13 +86,13 @@ pub fn run(arguments: &Arguments) -> Result<(), CliError> {
     let mut found = Found::new();
     let mut csv = msdd_files::names(&COLUMNS).join(",") + "\n";
     outln!(
-        "solver less discrete elements, and standard deviation of one packing, rms over the run: T in % of the range of T, others in %"
+        "solver less DEM, and standard deviation of one packing, rms over the run: T in % of the range of T, others in %"
     );
     outln!("{:15} {:9} {:>8} {:>13} {:>13} {:>13}", "scene", "use", "packings", "T", "p", "K");
     let wanted = |scene: &&PlannedBed| arguments.only.is_empty() || arguments.only.contains(&scene.name);
     for (number, planned) in plan.scenes.iter().filter(wanted).enumerate() {
         let folder = root.join(&planned.name);
-        let bed = Bed::read(&folder)?;
+        let bed = DemCase::read(&folder)?;
         let mut all: Vec<(Quantity, Vec<Row>)> = Vec::new();
         let packings = packings(&folder)?;
         for (seed, file) in &packings {
@@ -136,7 +136,7 @@ pub fn run(arguments: &Arguments) -> Result<(), CliError> {
 }
 
 /// Points of the region of the averages: means over them stand for means over it.
-fn region(bed: &Bed, geometry: &Geometry) -> Vec<[f64; 3]> {
+fn region(bed: &DemCase, geometry: &Geometry) -> Vec<[f64; 3]> {
     let [_, low, high, _] = geometry.levels;
     let height = |k: usize| low + (high - low) * (k as f64 + 0.5) / ALONG as f64;
     let Some(radius) = bed.record.radius else {
@@ -155,8 +155,8 @@ struct Packing<'a> {
     /// Number of the scene, and the seed.
     scene: usize,
     seed: u64,
-    bed: &'a Bed,
-    /// Folder of its `elements.toml`, and the results of its discrete elements.
+    bed: &'a DemCase,
+    /// Folder of its `dem.toml`, and the results of its DEM.
     folder: &'a Path,
     file: &'a Path,
 }
@@ -172,11 +172,11 @@ impl Packing<'_> {
     /// Rows for the fit, by quantity. Makes and runs the solver's case in the folder `place`.
     fn rows(&self, place: &Path, checkout: &Path) -> Result<Vec<(Quantity, Vec<Row>)>, CliError> {
         let failed = |error: ChoiceError| CliError::Message(error.to_string());
-        let start = Start::read(self.file)?;
-        let geometry = Geometry::new(&self.folder.join(FILE), self.bed, start.depth)?;
+        let start = FirstRow::read(self.file)?;
+        let geometry = Geometry::new(&file_in(&self.folder), self.bed, start.depth)?;
         folder::write(place, &foam::files(self.folder, self.bed, &start, "bed", checkout)?)?;
         solve(place, checkout).map_err(CliError::Message)?;
-        let mut scene = Scene::read(place).map_err(failed)?;
+        let mut scene = UserCase::read(place).map_err(failed)?;
         let all = self.compared(&geometry, &mut scene);
         scene.bed.grains = self.bed.grains.number as f64;
         scene.bed.window = in_region(self.bed, &geometry);
@@ -219,7 +219,7 @@ impl Packing<'_> {
     }
 
     /// What is compared; its points are added to those of the scene.
-    fn compared(&self, geometry: &Geometry, scene: &mut Scene) -> Vec<Compared> {
+    fn compared(&self, geometry: &Geometry, scene: &mut UserCase) -> Vec<Compared> {
         let (places, inside) = (probes(self.bed, geometry), region(self.bed, geometry));
         let first = scene.points.len();
         scene.points.extend(places.iter().chain(&inside));
@@ -269,7 +269,7 @@ impl<'a> Solver<'a> {
 }
 
 /// Number of spheres in the region of the averages.
-fn in_region(bed: &Bed, geometry: &Geometry) -> f64 {
+fn in_region(bed: &DemCase, geometry: &Geometry) -> f64 {
     let [_, low, high, _] = geometry.levels;
     let area = bed.record.radius.map_or(bed.vessel().area(), |radius| std::f64::consts::PI * radius * radius);
     FILLED * area * (high - low) / (std::f64::consts::PI / 6.0 * bed.grains.diameter.powi(3))
@@ -286,7 +286,7 @@ fn error(rows: &[&Row], range: Option<f64>) -> f64 {
     100.0 * (squares / rows.len() as f64).sqrt()
 }
 
-/// Standard deviation of the discrete elements between packings, likewise.
+/// Standard deviation of DEM between packings, likewise.
 fn scatter(rows: &[&Row], range: Option<f64>) -> f64 {
     let mut sums = (0.0, 0.0);
     let keys: std::collections::BTreeSet<usize> = rows.iter().map(|row| row.key).collect();

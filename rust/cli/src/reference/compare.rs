@@ -1,4 +1,4 @@
-//! `msdd reference compare`: temperatures of a run of the solver beside those of discrete elements.
+//! `msdd reference compare`: temperatures of a run of the solver beside those of DEM.
 
 use crate::error::CliError;
 use clap::Args;
@@ -6,7 +6,7 @@ use msdd_case::Case;
 use msdd_reference::compare::{check_grains, check_points, temperature_errors};
 use msdd_reference::results::Results;
 use msdd_reference::solver::{probe_points, probe_rows};
-use msdd_reference::start::Start;
+use msdd_reference::start::InitialMeans;
 use msdd_rve::message::number;
 use std::path::PathBuf;
 
@@ -53,7 +53,7 @@ pub fn run(arguments: &Arguments) -> Result<(), CliError> {
         Some(range) => range,
         None => range_of(&case)?,
     };
-    if let Some(difference) = Start::of(&case)?.and_then(|start| start.difference(&discs.model)) {
+    if let Some(difference) = InitialMeans::of(&case)?.and_then(|start| start.difference(&discs.model)) {
         outln!("Warning: {difference}");
     }
     let errors = temperature_errors(&solver, &discs, range)?;

@@ -1,4 +1,4 @@
-//! `msdd reference`: simulates the whole box of a case by discrete elements.
+//! `msdd reference`: simulates the whole box of a case by DEM.
 
 mod bands;
 mod beds;
@@ -22,7 +22,7 @@ use msdd_dem::Simulation;
 use msdd_files::{check_target, write};
 use msdd_reference::model::{DISCS, Filling, ModelSpec, check_state, pack, statistics};
 use msdd_reference::run::Watch;
-use msdd_reference::start::Start;
+use msdd_reference::start::InitialMeans;
 use msdd_reference::{ReferenceError, RunSpec, Statistics, fields, results::Results, run as run_case};
 use msdd_rve::message::number;
 use msdd_rve::vtk;
@@ -33,7 +33,7 @@ use std::time::{Duration, Instant};
 pub enum Command {
     /// Pack the initial model of a case, and print its statistics next to the paper's.
     Pack(PackArguments),
-    /// Run a case by discrete elements, with which the solver is compared, or continue a run that was killed.
+    /// Run a case by DEM, with which the solver is compared, or continue a run that was killed.
     ///
     /// The discs have the friction, the stiffness ratio and the radii that the surrogate of the case was trained with
     /// (constant/granularProperties); a plug-in does not hold these, and is refused. The packing has its own porosity and
@@ -44,17 +44,17 @@ pub enum Command {
     Fields(FieldsArguments),
     /// Print a table of results: mean and scatter over the seeds; or the differences of two runs.
     Summary(summary::Arguments),
-    /// Print the differences of a run of the solver from discrete elements in the temperatures at the probes. Results with
+    /// Print the differences of a run of the solver from DEM in the temperatures at the probes. Results with
     /// other grains than those of the case are refused; another start is a warning.
     Compare(compare::Arguments),
     /// Make the reference scenes of a plan, and compare the solver with them.
     Scenes(scenes::Arguments),
     /// Compare the solver with beds of spheres of a plan, packing by packing.
     ///
-    /// Each run starts from the start of its discrete elements. Prints how far the solver is from them, and how far packings
+    /// Each run starts from the start of its DEM. Prints how far the solver is from them, and how far packings
     /// are from each other.
     Beds(beds::Arguments),
-    /// Find the ranges of the scenes and beds by which the default models are compared with discrete elements.
+    /// Find the ranges of the scenes and beds by which the default models are compared with DEM.
     Ranges(ranges::Arguments),
 }
 
@@ -249,7 +249,7 @@ fn pack_model(arguments: &PackArguments) -> Result<(), CliError> {
 /// The grains that are simulated, and how the packing differs from the start of the case.
 fn print_grains(case: &Case, packing: &Statistics) -> Result<(), CliError> {
     outln!("grains: {}", case.grains_of_surrogate());
-    let start = match Start::of(case) {
+    let start = match InitialMeans::of(case) {
         Ok(Some(start)) => start,
         Ok(None) => return Ok(()),
         // Such as fields that are made from this packing

@@ -1,11 +1,11 @@
-//! `msdd reference ranges`: the ranges of the scenes and beds by which the default models are compared with discrete elements.
+//! `msdd reference ranges`: the ranges of the scenes and beds by which the default models are compared with DEM.
 
 use crate::bed::start::packings;
 use crate::error::CliError;
 use clap::Args;
+use msdd_beds::dem_case::DemCase;
 use msdd_beds::packings::{at_start, column};
 use msdd_beds::pour::Container;
-use msdd_beds::scene::Scene as Bed;
 use msdd_files::{read_text, write};
 use msdd_reference::scenes::{BedPlan, Plan, PlannedScene, Use, data};
 use msdd_spheres::law::effective_modulus;
@@ -24,7 +24,7 @@ pub struct Arguments {
     /// The plan of scenes of discs, next to windows.csv.gz.
     #[arg(long, value_name = "FILE")]
     scenes: PathBuf,
-    /// The plan of beds of spheres, next to a folder of each name with elements.toml and the files elements-<seed>.csv.
+    /// The plan of beds of spheres, next to a folder of each name with dem.toml and the files dem-<seed>.csv.
     #[arg(long, value_name = "FILE")]
     beds: PathBuf,
     /// File for the ranges (JSON).
@@ -104,7 +104,7 @@ fn spheres(plan: &Path) -> Result<Ranges, CliError> {
     let mut ranges = Ranges::new();
     for planned in BedPlan::read(plan)?.scenes.iter().filter(|bed| bed.purpose != Use::Outside) {
         let folder = folder(plan).join(&planned.name);
-        let bed = Bed::read(&folder)?;
+        let bed = DemCase::read(&folder)?;
         let grains = &bed.grains;
         let (temperatures, start) = (bed.temperatures(), bed.time.initial_temperature);
         let expansion = grains.thermal_expansion.unwrap_or(0.0);

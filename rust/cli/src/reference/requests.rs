@@ -7,11 +7,11 @@ use msdd_case::numbers::plain;
 use msdd_choice::ChoiceError;
 use msdd_choice::bands::Law;
 use msdd_choice::quantity::Quantity;
-use msdd_choice::runs::Wishes;
-use msdd_choice::scene::Scene;
+use msdd_choice::runs::SearchTarget;
 use msdd_choice::search::find;
 use msdd_choice::settings::{Level, Settings};
 use msdd_choice::trial::{self, Outcome};
+use msdd_choice::user_case::UserCase;
 use msdd_files::{Column, Lock, names, write};
 use msdd_reference::scenes::SceneResults;
 use msdd_report::studies::requests::{Request, Tally, tallies};
@@ -56,7 +56,7 @@ const COLUMNS: [Column; 13] = [
 
 /// Runs of one packing, each combination once.
 struct Runs<'a> {
-    scene: &'a Scene,
+    scene: &'a UserCase,
     range: f64,
     folder: PathBuf,
     lock: Lock,
@@ -116,7 +116,7 @@ pub fn judge(all: &[Done], law: &Law, file: &Path) -> Result<(), CliError> {
     for (planned, packings) in all {
         let Some((results, folder)) = packings.first() else { continue };
         let discs = Discs::of(results)?;
-        let mut scene = Scene::read(folder).map_err(failed)?;
+        let mut scene = UserCase::read(folder).map_err(failed)?;
         let standard = scene.points.len();
         scene.points.extend(discs.windows.points(scene.points[0][2]));
         let range = planned.case()?.temperature_range();
@@ -143,7 +143,7 @@ pub fn judge(all: &[Done], law: &Law, file: &Path) -> Result<(), CliError> {
             }
         }
         for asked in ASKED {
-            let wishes = Wishes {
+            let wishes = SearchTarget {
                 accuracy: asked,
                 pressure: None,
                 cells: scene.directions(),

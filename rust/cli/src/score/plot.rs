@@ -4,7 +4,7 @@ use crate::error::CliError;
 use msdd_surrogate::dataset::Ramp;
 use msdd_surrogate::score::one_step_pairs;
 use msdd_surrogate::scores::r_squared;
-use msdd_surrogate::surrogate::{Known, Surrogate};
+use msdd_surrogate::surrogate::{InitialData, Surrogate};
 use plotters::prelude::*;
 
 const PANEL: u32 = 320;
@@ -57,7 +57,7 @@ fn parity(model: &dyn Surrogate, ramps: &[Ramp]) -> Result<String, Box<dyn std::
 fn response(model: &dyn Surrogate) -> Result<String, Box<dyn std::error::Error>> {
     const POROSITIES: [f64; 5] = [0.08, 0.11, 0.13, 0.15, 0.17];
     let curve = |porosity: f64, value: &dyn Fn(&msdd_surrogate::surrogate::Answer) -> f64| {
-        let start = model.initial_state(&Known { porosity, ..Known::default() });
+        let start = model.initial_state(&InitialData { porosity, ..InitialData::default() });
         let mut points = Vec::new();
         for sign in [-1.0, 1.0] {
             let mut state = start;

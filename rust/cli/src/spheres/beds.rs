@@ -1,12 +1,12 @@
 //! Converts results of `msdd bed run` to paths of strain, on which the law of spheres is fitted: beds that were poured, and whose strain is
 //! known inside.
 
-use super::same::Known;
-use crate::bed::start::{Start, packings};
+use super::same::SeenValues;
+use crate::bed::start::{FirstRow, packings};
 use crate::error::CliError;
+use msdd_beds::dem_case::{DemCase, FILE, file_in};
 use msdd_beds::effective::BedMaterial;
 use msdd_beds::packings::column;
-use msdd_beds::scene::{FILE, Scene};
 use msdd_beds::solid::Solid;
 use msdd_files::{list, read_text};
 use msdd_spheres::law::effective_modulus;
@@ -40,14 +40,14 @@ const STATE: [&str; 10] = [
 /// # Errors
 /// A folder without beds or results; results without strains; a bed whose conductivity by contacts is not that of the law; a bed of
 /// another friction than `material`.
-pub fn tracks(root: &Path, first: i64, material: &mut Known) -> Result<(Vec<Track>, String), CliError> {
-    let folders = list(root)?.into_iter().filter(|folder| folder.join(FILE).is_file());
+pub fn tracks(root: &Path, first: i64, material: &mut SeenValues) -> Result<(Vec<Track>, String), CliError> {
+    let folders = list(root)?.into_iter().filter(|folder| file_in(folder).is_file());
     let (mut all, mut texts) = (Vec::new(), String::new());
     let mut seeds: Vec<u64> = Vec::new();
     for folder in folders {
-        let scene = Scene::read(&folder)?;
+        let scene = DemCase::read(&folder)?;
         // Beds differ from boxes in Poisson's ratio: their law is asked with stresses over E* of their own.
-        material.agree(&folder.join(FILE), [Some(scene.grains.friction), None])?;
+        material.agree(&file_in(&folder), [Some(scene.grains.friction), None])?;
         for (seed, file) in packings(&folder)? {
             let known = seeds.iter().position(|known| *known == seed).unwrap_or_else(|| {
                 seeds.push(seed);
@@ -69,8 +69,8 @@ pub fn tracks(root: &Path, first: i64, material: &mut Known) -> Result<(Vec<Trac
 }
 
 /// Refuses beds whose spheres conduct in another way than those of the training.
-fn check_conduction(folder: &Path, scene: &Scene) -> Result<(), CliError> {
-    let refuse = |text: &str| Err(CliError::Message(format!("{}: {text}", folder.join(FILE).display())));
+fn check_conduction(folder: &Path, scene: &DemCase) -> Result<(), CliError> {
+    let refuse = |text: &str| Err(CliError::Message(format!("{}: {text}", file_in(folder).display())));
     if scene.grains.roughness.is_some() {
         return refuse("spheres that are rough, allowed for a training: no roughness");
     }
@@ -87,11 +87,17 @@ fn check_conduction(folder: &Path, scene: &Scene) -> Result<(), CliError> {
 ///
 /// # Errors
 /// Results without strains.
-pub fn track(folder: &Path, scene: &Scene, file: &Path, text: &str, packing: i64) -> Result<Track, CliError> {
+pub fn track(
+    folder: &Path,
+    scene: &DemCase,
+    file: &Path,
+    text: &str,
+    packing: i64,
+) -> Result<Track, CliError> {
     let grains = &scene.grains;
     let values = |name: &&str| {
         column(text, name).ok_or_else(|| {
-            let allowed = "elements.csv of this version's 'msdd bed run'";
+            let allowed = "dem.csv of this version's 'msdd bed run'";
             CliError::Message(format!("{}: no column {name} of numbers, allowed: {allowed}", file.display()))
         })
     };
@@ -99,7 +105,7 @@ pub fn track(folder: &Path, scene: &Scene, file: &Path, text: &str, packing: i64
     let states: Vec<Vec<f64>> = STATE.iter().map(values).collect::<Result<_, _>>()?;
     let temperatures = values(&"T_mean")?;
     let modulus = effective_modulus(grains.young_modulus, grains.poisson_ratio);
-    let mobilised = Start::read(file)?.mobilised;
+    let mobilised = FirstRow::read(file)?.mobilised;
     let gas_along = |temperature: f64, conductivity: f64| {
         let solid = Solid {
             conductivity: grains.conductivity.at(temperature),

@@ -12,9 +12,9 @@ use msdd_surrogate::spheres::errors::Errors;
 use msdd_surrogate::spheres::model::SphereModel;
 use msdd_surrogate::spheres::score::{PathErrors, score};
 use msdd_surrogate::spheres::tracks::{Track, set_aside};
-use msdd_surrogate::spheres::training::{USUAL_EPOCHS, is_held_out, train};
+use msdd_surrogate::spheres::training::{DEFAULT_EPOCHS, is_held_out, train};
 use msdd_surrogate::{DatabaseProvenance, TrainingOptions};
-use same::Known;
+use same::SeenValues;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -26,7 +26,7 @@ fn read(files: &[PathBuf]) -> Result<(Vec<Track>, DatabaseProvenance), CliError>
     let (mut all, mut next) = (Vec::new(), 0);
     let (mut plans, mut rows) = (String::new(), String::new());
     let mut provenance = DatabaseProvenance::default();
-    let mut known = Known::default();
+    let mut known = SeenValues::default();
     for file in files {
         if file.is_dir() {
             let (tracks, text) = beds::tracks(file, next, &mut known)?;
@@ -68,7 +68,7 @@ pub fn train_and_write(training: &Training) -> Result<(), CliError> {
     let options = TrainingOptions {
         name: training.name.unwrap_or(KIND).to_string(),
         seed: training.seed,
-        max_epochs: training.epochs.unwrap_or(USUAL_EPOCHS),
+        max_epochs: training.epochs.unwrap_or(DEFAULT_EPOCHS),
         database,
         ..TrainingOptions::default()
     };
@@ -95,7 +95,7 @@ pub fn train_and_write(training: &Training) -> Result<(), CliError> {
 
 /// Whether a file is a model of spheres.
 pub fn is_model(file: &Path) -> Result<bool, CliError> {
-    Ok(SphereModel::is_meant(&read_text(file)?))
+    Ok(SphereModel::has_sphere_schema(&read_text(file)?))
 }
 
 pub fn score_models(models: &[PathBuf], database: &[PathBuf], json: Option<&Path>) -> Result<(), CliError> {

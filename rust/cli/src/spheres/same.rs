@@ -10,9 +10,9 @@ const KEYS: [&str; 2] = ["friction", "poisson_ratio"];
 
 /// The values of the data read so far, with the file that each was read from first.
 #[derive(Default)]
-pub struct Known([Option<(PathBuf, f64)>; 2]);
+pub struct SeenValues([Option<(PathBuf, f64)>; 2]);
 
-impl Known {
+impl SeenValues {
     /// Compares a value with that of the data before; `None` if it is not known or may differ.
     ///
     /// # Errors
@@ -49,7 +49,7 @@ mod tests {
                 "friction": friction, "poisson_ratio": ratio, "restitution": restitution
             }))
         };
-        let mut known = Known::default();
+        let mut known = SeenValues::default();
         let mut add =
             |file: &str, values| known.agree(Path::new(file), values).map_err(|error| error.to_string());
         assert!(add("a.csv", material(0.3, 0.25, 0.3)).is_ok());

@@ -1,4 +1,4 @@
-//! Results of the six cases by discrete elements, mean and scatter of three packings, and the solver's errors against them.
+//! Results of the six cases by DEM, mean and scatter of three packings, and the solver's errors against them.
 
 use super::read::{CaseResult, PROBES};
 use crate::error::CliError;
@@ -12,7 +12,7 @@ use std::path::Path;
 /// Mean and standard deviation over packings at a time: (t [s], mean, deviation).
 pub type Band = Vec<(f64, f64, f64)>;
 
-/// One case by discrete elements.
+/// One case by DEM.
 #[derive(Clone, Debug, Serialize)]
 pub struct Discs {
     /// Range of T that errors are given in per cent of [K].
@@ -27,7 +27,7 @@ pub struct Discs {
     pub core_seconds: Option<f64>,
 }
 
-/// Differences of a run of the solver from the mean of the discrete elements: the largest over time, with its sign.
+/// Differences of a run of the solver from the mean of DEM: the largest over time, with its sign.
 #[derive(Clone, Debug, Serialize)]
 pub struct Errors {
     /// Of T at the probes [% of the range].
@@ -43,7 +43,7 @@ impl Errors {
     }
 }
 
-/// A case: its name, the solver's runs, and the discrete elements.
+/// A case: its name, the solver's runs, and DEM.
 pub struct Named {
     pub folder: &'static str,
     pub name: &'static str,
@@ -114,7 +114,7 @@ impl Discs {
         })
     }
 
-    /// Differences of `run` from the mean of the packings. `None` when the run ended earlier than the discrete elements.
+    /// Differences of `run` from the mean of the packings. `None` when the run ended earlier than DEM.
     pub fn errors(&self, case: &str, run: &CaseResult) -> Option<Errors> {
         let end = self.pressure.last()?;
         let of_probe = |probe: &str| -> Option<f64> {

@@ -28,7 +28,7 @@ pub const SOLVER: &str = r#"{
 /// What OpenFOAM's probes write; one temperature lies above the hottest wall of the shipped cases.
 const PROBES: &str = "# Probe 0 (0 0 0)\n#  Time\n 1 50 51 52\n 5 79 80 81\n 20 119 120 121\n";
 
-/// The committed results by discrete elements.
+/// The committed results by DEM.
 pub fn reference() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../cases/reference")
 }

@@ -1,4 +1,4 @@
-//! `msdd summary`: the solver's results in the case folders beside discrete elements of the same cases, as a table, as JSON
+//! `msdd summary`: the solver's results in the case folders beside DEM of the same cases, as a table, as JSON
 //! and as a plot.
 
 mod discs;
@@ -26,7 +26,7 @@ pub struct Arguments {
     /// Folder with the same cases after runs with grains that move (`mechanics equilibrium`); without it these are left out.
     #[arg(long, value_name = "DIR")]
     moving: Option<PathBuf>,
-    /// Folder of the results by discrete elements.
+    /// Folder of the results by DEM.
     #[arg(long, value_name = "DIR", default_value = "cases/reference")]
     reference: PathBuf,
     /// JSON file to write.

@@ -9,14 +9,14 @@ use plotters::prelude::*;
 const SIZE: (u32, u32) = (1000, 1020);
 /// Colours of P1, P2, P3 from the palette of Okabe and Ito, which can be told apart by colour-blind readers and in grey.
 const COLOURS: [RGBColor; 3] = [RGBColor(230, 159, 0), RGBColor(0, 0, 0), RGBColor(0, 114, 178)];
-/// Only every so-manieth time of the discrete elements (0.1 s apart) is drawn as a point.
+/// Only every so-manieth time of DEM (0.1 s apart) is drawn as a point.
 const SPARSE: usize = 8;
 
 type Drawn = Result<(), Box<dyn std::error::Error>>;
 type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 
 /// The plot as SVG text: one panel for each case; dashed lines: the paper's scheme, solid lines: grains that move, points
-/// and error bars: discrete elements.
+/// and error bars: DEM.
 pub fn temperature(cases: &[Named]) -> Result<String, CliError> {
     let mut svg = String::new();
     draw(cases, &mut svg).map_err(|error| CliError::Message(format!("cannot draw the plot: {error}")))?;

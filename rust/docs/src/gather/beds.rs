@@ -1,4 +1,4 @@
-//! The solver beside the beds of spheres: the tables that `cases/beds/make` wrote; and what plates give, as `msdd bed give` found.
+//! The solver beside the beds of spheres: the tables that `cases/beds/make` wrote; and what plates give, as `msdd bed slack` found.
 
 use crate::error::DocsError;
 use crate::gather::beside;
@@ -116,7 +116,7 @@ fn plates(section: &mut Section, beds: &Json) -> Result<(), DocsError> {
     rows.push(row);
     let columns = ["bed", "packings", "given where pressed [d]", "given back where let up [d]"];
     let meaning = "thickness of bed, in diameters, by which spheres give way at each of two smooth plates, and how much one packing differs";
-    section.add_table("plates-give", meaning, "msdd bed give", &columns, rows);
+    section.add_table("plates-give", meaning, "msdd bed slack", &columns, rows);
     Ok(())
 }
 

@@ -1,4 +1,4 @@
-//! Solver and DEM of 20 000 spheres: what `compare-elements` printed for the cases `column` and `store`.
+//! Solver and DEM of 20 000 spheres: what `compare-dem` printed for the cases `column` and `store`.
 
 use crate::error::DocsError;
 use crate::gather::json::INPUTS;

@@ -1,4 +1,4 @@
-//! The six cases: the solver by the paper's scheme and with grains that move, beside the committed discrete elements. All of it
+//! The six cases: the solver by the paper's scheme and with grains that move, beside the committed DEM. All of it
 //! is in what `msdd summary` writes; errors are computed there.
 
 use crate::error::DocsError;
@@ -22,12 +22,12 @@ const TIME: f64 = 5.0;
 const NEAR: f64 = 0.11;
 /// Conductivity of the grains [W/(m K)], by which the discs' K/k is multiplied.
 const GRAIN: f64 = 100.0;
-/// Rangel et al., section 3.3: largest error of T of their solver against their discrete elements [%], at the centre in H and C and
+/// Rangel et al., section 3.3: largest error of T of their solver against their DEM [%], at the centre in H and C and
 /// at P3, the worst of three points, in HC; section 3.4: 40 s for a run.
 const PAPER_ERRORS: [Option<f64>; 6] = [Some(5.3), Some(2.8), Some(6.5), None, None, None];
 const PAPER_SECONDS: f64 = 40.0;
 
-/// One case by discrete elements.
+/// One case by DEM.
 struct Discs {
     /// Mean and standard deviation over the packings at [`TIME`] [K], by probe.
     at_time: [[f64; 2]; 3],

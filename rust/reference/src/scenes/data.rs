@@ -74,7 +74,7 @@ fn compressed(text: &str) -> std::io::Result<Vec<u8>> {
 /// [`ReferenceError::File`], [`ReferenceError::Read`].
 pub fn read(folder: &Path, name: &str) -> Result<String, ReferenceError> {
     let file = folder.join(name);
-    let bytes = msdd_files::read(&file, msdd_files::MOST_BYTES)?;
+    let bytes = msdd_files::read(&file, msdd_files::MAX_BYTES)?;
     let mut text = String::new();
     let done = match name.ends_with(".gz") {
         true => GzDecoder::new(&bytes[..]).read_to_string(&mut text),

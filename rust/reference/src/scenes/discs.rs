@@ -1,4 +1,4 @@
-//! One packing of a scene by discrete elements, and what is recorded of it: T around the probes, and averages over windows.
+//! One packing of a scene by DEM, and what is recorded of it: T around the probes, and averages over windows.
 
 use crate::model::{Model, pack, statistics};
 use crate::observe::{MARGIN, PROBE_WINDOW, mean_temperature};

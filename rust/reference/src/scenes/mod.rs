@@ -5,7 +5,7 @@
 //! |---|---|
 //! | [`plan`] | the plan: a TOML file |
 //! | [`beds`] | the plan of beds of spheres |
-//! | [`discs`] | one packing by discrete elements |
+//! | [`discs`] | one packing by DEM |
 //! | [`data`] | the tables of all packings |
 //! | [`table`] | errors of the solver beside the scatter of the packings |
 

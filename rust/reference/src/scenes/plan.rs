@@ -5,8 +5,8 @@ use crate::model::{Filling, ModelSpec, SUM_POROSITY};
 use msdd_case::Case;
 use msdd_case::disc_model::DiscModel;
 use msdd_case::grains::Grains;
-use msdd_case::packing::{POROSITIES, RADIUS_RANGE, Start};
-use msdd_case::scene::{Mechanics, Scene, parse_wall, proposed_cells};
+use msdd_case::packing::{InitialPacking, POROSITIES, RADIUS_RANGE};
+use msdd_case::scene::{DiscCase, Mechanics, parse_wall, proposed_cells};
 use msdd_case::walls::WallOverTime;
 use msdd_dem::{Material, Thermal};
 use msdd_files::read_text;
@@ -230,9 +230,9 @@ impl PlannedScene {
     ///
     /// # Errors
     /// [`ReferenceError::Parameter`] for a wall that is not understood.
-    pub fn scene(&self, porosity: f64) -> Result<Scene, ReferenceError> {
+    pub fn scene(&self, porosity: f64) -> Result<DiscCase, ReferenceError> {
         let size = self.box_size();
-        Ok(Scene {
+        Ok(DiscCase {
             size,
             cells: proposed_cells(size, self.mean_radius),
             walls: self.walls()?,
@@ -247,7 +247,7 @@ impl PlannedScene {
                 mean_radius: self.mean_radius,
             },
             model: DiscModel::shipped()?,
-            start: Start::Porosity(porosity.clamp(POROSITIES[0], POROSITIES[1])),
+            start: InitialPacking::Porosity(porosity.clamp(POROSITIES[0], POROSITIES[1])),
             compression: match self.compression {
                 Closing::Horizontal => Compression::Horizontal,
                 Closing::Isotropic => Compression::Isotropic,

@@ -5,7 +5,7 @@ use crate::jobs::job::{CaseDiscs, CaseJob, CaseProgram};
 use msdd_case::dictionary::{Dictionary, Entry};
 use msdd_case::packing::{sum_porosity, usual_fabric};
 use msdd_case::{Case, CaseError};
-use msdd_choice::scene::Scene;
+use msdd_choice::user_case::UserCase;
 use msdd_reference::model::Filling;
 use msdd_reference::run::estimated_steps;
 use msdd_rve::Compression;
@@ -33,7 +33,7 @@ pub struct Discs {
 ///
 /// # Errors
 /// [`ReportError::Case`] with file, key, value and what is allowed if discs cannot be made for the case.
-pub fn of(scene: &Scene, checksum: &str, quick: bool) -> Result<Discs, ReportError> {
+pub fn of(scene: &UserCase, checksum: &str, quick: bool) -> Result<Discs, ReportError> {
     let folder = &scene.folder;
     check_mesh(scene)?;
     let case = Case::read(folder)?;
@@ -93,7 +93,7 @@ pub fn of(scene: &Scene, checksum: &str, quick: bool) -> Result<Discs, ReportErr
 }
 
 /// The mesh is one block in the plane.
-fn check_mesh(scene: &Scene) -> Result<(), CaseError> {
+fn check_mesh(scene: &UserCase) -> Result<(), CaseError> {
     let refuse = |value: String| {
         CaseError::Key {
         file: scene.folder.join("system/blockMeshDict"),

@@ -4,8 +4,8 @@ use crate::ReportError;
 use crate::jobs::job::CaseRun;
 use msdd_case::dictionary::{Dictionary, Entry};
 use msdd_choice::bed::Grains;
-use msdd_choice::scene::Scene;
 use msdd_choice::settings::{Level, Settings};
+use msdd_choice::user_case::UserCase;
 use std::collections::BTreeMap;
 
 /// Kinds of configurations, which are drawn with different markers and colours.
@@ -39,7 +39,7 @@ pub struct Rung {
 }
 
 impl Rung {
-    pub fn new(scene: &Scene, range: f64, settings: Settings) -> Self {
+    pub fn new(scene: &UserCase, range: f64, settings: Settings) -> Self {
         let name = format!("{}, {}", cells(scene, &settings.levels), percent(settings.tolerance));
         let family = FAMILIES[usize::from(settings.moves)];
         Self { name, family, settings, range: Some(range), append: BTreeMap::new() }
@@ -63,12 +63,12 @@ fn percent(tolerance: f64) -> String {
 }
 
 /// Cells at these levels in words.
-pub fn cells(scene: &Scene, levels: &[Level]) -> String {
+pub fn cells(scene: &UserCase, levels: &[Level]) -> String {
     format!("{} cells", count(scene, levels))
 }
 
 /// Number of cells at these levels.
-pub fn count(scene: &Scene, levels: &[Level]) -> usize {
+pub fn count(scene: &UserCase, levels: &[Level]) -> usize {
     scene
         .blocks
         .as_ref()
@@ -76,7 +76,7 @@ pub fn count(scene: &Scene, levels: &[Level]) -> usize {
 }
 
 /// The same level along all directions that can be chosen.
-pub fn level(scene: &Scene, halved: i32) -> Vec<Level> {
+pub fn level(scene: &UserCase, halved: i32) -> Vec<Level> {
     vec![Level::Halved(halved); scene.directions().len()]
 }
 
@@ -90,7 +90,7 @@ pub fn finest(quick: bool) -> (f64, i32) {
 ///
 /// # Errors
 /// [`ReportError::Case`] for dictionaries of the case that cannot be read.
-pub fn ladder(scene: &Scene, range: f64, quick: bool) -> Result<Vec<Rung>, ReportError> {
+pub fn ladder(scene: &UserCase, range: f64, quick: bool) -> Result<Vec<Rung>, ReportError> {
     let left_out = usize::from(quick);
     let mut meshes: Vec<Vec<Level>> = Vec::new();
     for halved in HALVED.iter().take(HALVED.len() - left_out) {
@@ -138,13 +138,13 @@ pub fn ladder(scene: &Scene, range: f64, quick: bool) -> Result<Vec<Rung>, Repor
 
 /// What gives the bed the conductivity of the case's own model at the start. None where the surrogate type constant cannot: it loads
 /// models of discs alone, no plug-ins.
-fn constant(scene: &Scene) -> Option<String> {
+fn constant(scene: &UserCase) -> Option<String> {
     let model = scene.model.as_ref().filter(|_| scene.bed.kind == Grains::Discs)?;
     Some(format!("surrogate {{ type constant; constantCoeffs {{ model \"{model}\"; }} }}\n"))
 }
 
 /// The case with its own cells, steps and mechanics; none if it leaves them to `msdd case solve`.
-fn as_it_is(scene: &Scene) -> Result<Option<Rung>, ReportError> {
+fn as_it_is(scene: &UserCase) -> Result<Option<Rung>, ReportError> {
     if scene.accuracy.is_some() {
         return Ok(None);
     }
@@ -170,11 +170,11 @@ fn as_it_is(scene: &Scene) -> Result<Option<Rung>, ReportError> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use msdd_choice::bed::Bed;
+    use msdd_choice::bed::BandInputs;
 
-    fn scene() -> Scene {
+    fn scene() -> UserCase {
         let folder = std::env::temp_dir().join(format!("msdd-report-ladder-{}", std::process::id()));
-        Scene {
+        UserCase {
             folder,
             start: "0".to_string(),
             start_time: 0.0,
@@ -194,7 +194,7 @@ mod tests {
             averages: Default::default(),
             bounds: [[0.0; 3], [1.0; 3]],
             in_space: false,
-            bed: Bed {
+            bed: BandInputs {
                 kind: Grains::Discs,
                 grains: 1000.0,
                 mean_radius: 0.005,
@@ -219,7 +219,7 @@ mod tests {
     #[test]
     fn the_constant_conductivity_is_that_of_the_own_model() {
         let mut scene = scene();
-        let constant = |scene: &Scene| {
+        let constant = |scene: &UserCase| {
             let rungs = ladder(scene, 50.0, false).unwrap();
             let of = |rung: &Rung| rung.append["constant/granularProperties"].clone();
             rungs.iter().filter(|rung| rung.family == FAMILIES[2]).map(of).collect::<Vec<_>>()

@@ -1,5 +1,5 @@
 //! Speed against accuracy for a case of the user's: it is run in a ladder of configurations, which are compared with a run that
-//! is finer in space and time, or with discrete elements of the same box.
+//! is finer in space and time, or with DEM of the same box.
 //!
 //! | module | what |
 //! |---|---|
@@ -28,7 +28,7 @@ use errors::{Errors, Truth};
 use ladder::{FAMILIES, Rung, ladder, level};
 use msdd_case::CaseError;
 use msdd_choice::record::{self, sentence};
-use msdd_choice::scene::Scene;
+use msdd_choice::user_case::UserCase;
 use msdd_files::Lock;
 use reference::Reference;
 use serde::Serialize;
@@ -101,7 +101,7 @@ fn check(folder: &Path) -> Result<(), CaseError> {
 }
 
 /// Makes the report on the case in `folder`; runs the jobs that the cache does not have. `discs`: whether the reference is one by
-/// discrete elements. The folder stays as it is; copies are made beside it and removed.
+/// DEM. The folder stays as it is; copies are made beside it and removed.
 ///
 /// # Errors
 /// When the folder is no case, discs cannot be made for it, it cannot be run at all, or files cannot be written.
@@ -112,7 +112,7 @@ pub fn make(
     watch: &mut Watch,
 ) -> Result<CaseReport, ReportError> {
     check(folder)?;
-    let scene = Scene::read(folder)?;
+    let scene = UserCase::read(folder)?;
     let lock = Arc::new(Lock::take(&user_case::copy_of(&scene.folder))?);
     user_case::check(&scene.folder)?;
     settings.place.lock = Some(lock);

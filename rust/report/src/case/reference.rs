@@ -68,7 +68,7 @@ fn of_discs(work: &mut Work, watch: &mut Watch) -> Result<(Truth, Reference), Re
     let of =
         |k: usize| packings.iter().filter_map(|p| Some(p.packing?[k])).sum::<f64>() / packings.len() as f64;
     let mut what = format!(
-        "Discrete elements: the mean of {} of {size} discs in the same box, closed to the case's mean porosity. Before heating it has \
+        "DEM: the mean of {} of {size} discs in the same box, closed to the case's mean porosity. Before heating it has \
          porosity {:.4}, overlaps counted once, and pressure {:.4e} Pa away from the walls, and fabric index {:.3}. The runs start from the fields of the case, not from \
          these packings.",
         match packings.len() {

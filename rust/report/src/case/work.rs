@@ -8,7 +8,7 @@ use crate::jobs::job::{CaseJob, CaseProgram, Job};
 use crate::jobs::pool::{self, Asked, Progress, Records};
 use crate::jobs::user_case::Measured;
 use crate::settings::Settings;
-use msdd_choice::scene::Scene;
+use msdd_choice::user_case::UserCase;
 
 /// Processor time after which a run of the ladder, or a choice, is stopped [s]; of a quick report.
 const LIMITS: [u64; 2] = [600, 120];
@@ -19,7 +19,7 @@ pub type Watch<'a> = dyn FnMut(&str, &Progress) + Send + 'a;
 /// A case, and the records of its jobs so far.
 pub struct Work<'a> {
     pub settings: &'a Settings,
-    pub scene: &'a Scene,
+    pub scene: &'a UserCase,
     pub checksum: String,
     pub discs: Option<Discs>,
     pub records: Records,

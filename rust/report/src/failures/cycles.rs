@@ -1,4 +1,4 @@
-//! Ten thermal cycles of 50 K ± 20 K (case `cycle`): the solver compared with discrete elements.
+//! Ten thermal cycles of 50 K ± 20 K (case `cycle`): the solver compared with DEM.
 
 use crate::jobs::job::{Job, Part, SolverJob};
 use crate::jobs::pool::Records;
@@ -37,7 +37,7 @@ pub fn jobs() -> Vec<Job> {
     ["none", "equilibrium"].map(|mechanics| job(mechanics).into()).to_vec()
 }
 
-/// Reads the results of the solver and of the discrete elements (mean of the packings).
+/// Reads the results of the solver and of DEM (mean of the packings).
 pub fn read(settings: &Settings, records: &Records) -> Vec<Cycles> {
     let mut list = Vec::new();
     for (name, mechanics) in
@@ -86,7 +86,7 @@ impl Cycles {
     }
 }
 
-/// Largest difference of the pressure, over that at the start, between a run of the solver and the discrete elements [%].
+/// Largest difference of the pressure, over that at the start, between a run of the solver and DEM [%].
 pub fn worst(cycles: &[Cycles], name: &str) -> Option<f64> {
     let of = |part: &str| cycles.iter().find(|c| c.name.contains(part));
     let (run, discs) = (of(name)?, of("discs")?);

@@ -1,4 +1,4 @@
-//! Limits of the discrete elements.
+//! Limits of DEM.
 
 use crate::jobs::job::{Job, ToolJob};
 use crate::plan;
@@ -59,7 +59,7 @@ pub struct WallSpeed {
     pub fabric_index: [f64; 2],
 }
 
-/// Means over the packings at a strain, of the discrete elements and of each model.
+/// Means over the packings at a strain, of DEM and of each model.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Unjamming {
     pub strain: f64,

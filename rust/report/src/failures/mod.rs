@@ -3,7 +3,7 @@
 //! | module | what |
 //! |---|---|
 //! | [`rows`] | configurations outside of what a method can do, and whether the program refuses, ends, cuts or reports them |
-//! | [`elements`] | discrete elements: time steps, strain rates, limits of equilibrium, loss of contacts |
+//! | [`elements`] | DEM: time steps, strain rates, limits of equilibrium, loss of contacts |
 //! | [`solver`] | long time steps, contrasts of conductivity, slanted cells |
 //! | [`cycles`] | thermal cycles |
 //! | [`drift`] | models when a strain is divided into many increments |

@@ -57,7 +57,7 @@ fn uniform(case: &str, porosity: f64) -> SolverJob {
 }
 
 fn policy(column: &str, side: &str, action: &str) -> String {
-    format!("surrogate {{ outOfRegion {{ {column} {{ {side} {action}; }} }} }}")
+    format!("surrogate {{ outOfTrainingRange {{ {column} {{ {side} {action}; }} }} }}")
 }
 
 fn stepped(step: &str) -> SolverJob {
@@ -79,7 +79,7 @@ pub fn edges(quick: bool) -> Vec<Edge> {
 
 fn coupling() -> Vec<Edge> {
     let hot = || walls(stepped("5"), "200");
-    let warn = "surrogate { outOfRegion { thermalStrain { below warn; above warn; } porosity { below warn; } \
+    let warn = "surrogate { outOfTrainingRange { thermalStrain { below warn; above warn; } porosity { below warn; } \
                 elasticCompression { above warn; } } }";
     let adaptive = "msddFoam { timeScheme secondOrder; temperatureTolerance 0.05; }";
     vec![

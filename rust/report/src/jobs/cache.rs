@@ -84,7 +84,7 @@ impl Cache {
                     parts.push(self.hash(format!("{case}/{folder}"))?);
                 }
                 if !spheres.compare.is_empty() {
-                    parts.push(self.hash(format!("{case}/elements.csv"))?);
+                    parts.push(self.hash(format!("{case}/dem.csv"))?);
                 }
                 parts.push(self.hash("cases/common")?);
                 self.add_programs(&mut parts)?;

@@ -69,7 +69,7 @@ pub struct Record {
     pub wall_seconds: f64,
     pub run: Option<Run>,
     /// The output of a tool, and the text of the output file that the job names; of a run on a case of the user's, what it has
-    /// given ([`user_case::result`]); of a run with spheres its comparison with discrete elements, and T at its probes.
+    /// given ([`user_case::result`]); of a run with spheres its comparison with DEM, and T at its probes.
     pub printed: String,
     pub file: Option<String>,
     pub stamp: Stamp,

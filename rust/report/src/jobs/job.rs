@@ -127,7 +127,7 @@ pub struct SpheresJob {
     pub mesh: Vec<(String, String)>,
     /// Text that is added at the end of files of the case.
     pub append: BTreeMap<String, String>,
-    /// Arguments of `cases/common/compare-elements`; none: the case has no discrete elements.
+    /// Arguments of `cases/common/compare-dem`; none: the case has no DEM.
     pub compare: Vec<String>,
     /// Processor time after which the run is stopped \[s\].
     pub limit: u64,

@@ -1,4 +1,4 @@
-//! Makes the case folder of a job with spheres, and compares a run in it with the discrete elements of the case.
+//! Makes the case folder of a job with spheres, and compares a run in it with DEM of the case.
 
 use crate::jobs::job::SpheresJob;
 use crate::{ReportError, read_text, write_text};
@@ -6,7 +6,7 @@ use std::path::Path;
 use std::process::Command;
 
 const MESH: &str = "system/blockMeshDict";
-const ELEMENTS: &str = "elements.csv";
+const ELEMENTS: &str = "dem.csv";
 
 /// Writes the case of `job` into `folder`.
 ///
@@ -52,7 +52,7 @@ fn changed(text: &str, changes: &[(String, String)]) -> Result<String, String> {
     Ok(changes.iter().enumerate().fold(text, |text, (k, (_, to))| text.replace(&mark(k), to)))
 }
 
-/// The table of differences from the discrete elements; empty without these.
+/// The table of differences from DEM; empty without these.
 ///
 /// # Errors
 /// Why there is none.
@@ -60,7 +60,7 @@ pub fn compared(checkout: &Path, job: &SpheresJob, folder: &Path) -> Result<Stri
     if job.compare.is_empty() {
         return Ok(String::new());
     }
-    let program = checkout.join("cases/common/compare-elements");
+    let program = checkout.join("cases/common/compare-dem");
     let output = Command::new(&program).args(&job.compare).current_dir(folder).output();
     let output = output.map_err(|error| format!("{}: {error}", program.display()))?;
     let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();

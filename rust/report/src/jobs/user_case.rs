@@ -5,10 +5,10 @@ use crate::{ReportError, read_text};
 use msdd_case::tables;
 use msdd_choice::quantity::Quantity;
 use msdd_choice::record;
-use msdd_choice::scene::Scene;
 use msdd_choice::series::Series;
 use msdd_choice::settings::{Level, Settings};
 use msdd_choice::trial::{self, Purpose, read_outcome};
+use msdd_choice::user_case::UserCase;
 use msdd_choice::{ChoiceError, trial::check_ours};
 use msdd_files::{list, write};
 use msdd_reference::model::SUB_REGIONS;
@@ -101,7 +101,7 @@ pub fn clear(case: &Path) -> Result<(), ChoiceError> {
 /// # Errors
 /// [`ChoiceError::Run`] when OpenFOAM cannot make its mesh or fields; others when files cannot be read or written.
 pub fn prepare(job: &CaseJob) -> Result<(), ChoiceError> {
-    let scene = Scene::read(&job.folder)?;
+    let scene = UserCase::read(&job.folder)?;
     let folder = copy_of(&job.folder);
     clear(&job.folder)?;
     match &job.program {
@@ -167,7 +167,7 @@ fn points(points: &[[f64; 3]]) -> String {
 }
 
 /// Function objects that write what is compared.
-fn watch(scene: &Scene, run: &CaseRun) -> String {
+fn watch(scene: &UserCase, run: &CaseRun) -> String {
     let at = points(&scene.points);
     let probes = |name: &str, fields: &str, at: &str| {
         format!(

@@ -123,7 +123,7 @@ fn other_cases(made: &Made) -> Result<String, ReportError> {
         .collect();
     keys.push((Style::line(0, Line::Solid), "solver, grains move".to_string()));
     keys.push((Style::line(0, Line::Dotted), "solver, grains stay".to_string()));
-    keys.push((Style::marker(0, Marker::Circle), "discrete elements".to_string()));
+    keys.push((Style::marker(0, Marker::Circle), "DEM".to_string()));
     let worst = |way: &str| -> Vec<String> {
         let rows = found.rows.iter().filter(|row| row.what == way);
         let text = |t: &[f64; 3]| t.map(|e| format!("{:.1}", e.abs())).join(", ");
@@ -135,7 +135,7 @@ fn other_cases(made: &Made) -> Result<String, ReportError> {
         worst(WAYS[0].0).join("; "),
         worst(WAYS[1].0).join("; ")
     );
-    let source = "discrete elements committed, packings 11 and 12; solver measured and cached";
+    let source = "DEM committed, packings 11 and 12; solver measured and cached";
     let figure = Figure { id: "other-cases", panels, keys, caption, source }.html(&made.report.made)?;
     Ok(format!("<h3>Another scene, another material</h3>\n{}{figure}{}", other_table(made), scalings(made)))
 }

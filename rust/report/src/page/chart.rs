@@ -15,7 +15,7 @@ pub fn section(made: &Made) -> Result<String, ReportError> {
     let report = &made.report;
     let mut html = "<h2>What accuracy costs</h2>\n".to_string();
     html += "<p>The cheapest configuration for a wanted error of T: the largest, over 20 s and P1 to P3, of the mean over the packings \
-             of solver minus discrete elements, in % of the range of T (50 K; HC 100 K).</p>\n";
+             of solver minus DEM, in % of the range of T (50 K; HC 100 K).</p>\n";
     let rows: Vec<Vec<String>> = report
         .cheapest
         .iter()
@@ -92,7 +92,7 @@ fn figure(made: &Made, which: usize) -> Result<String, ReportError> {
         ["50 K; HC 100 K", "the paper's: H 3.2, C 2.2, HC 3.8 kPa"][which],
         best.join("; "),
         if which == 0 {
-            " The error of discrete elements is the scatter between packings. The paper gives errors at P2 alone for H and C."
+            " The error of DEM is the scatter between packings. The paper gives errors at P2 alone for H and C."
         } else {
             ""
         }
@@ -184,7 +184,7 @@ fn ledger(made: &Made) -> String {
     ];
     format!(
         "<h2>No more than a case needs</h2>\n<p>What can be left out of the computation of each case, and the error that this causes. Change of T: largest difference at \
-         P1 to P3 from 1 s on, from the run that computes all. Error of T: against discrete elements, over all 20 s. Law of the increments, cells keep \
+         P1 to P3 from 1 s on, from the run that computes all. Error of T: against DEM, over all 20 s. Law of the increments, cells keep \
          their place. A half and a quarter of the box have the initial fields of their part. Processor time was measured with two jobs at \
          a time.</p>\n{}",
         table(&heads, &rows)

@@ -12,11 +12,11 @@ use msdd_reference::series::statistics;
 use msdd_reference::series::{at, largest};
 use msdd_reference::solver::Run;
 
-const SOURCE: &str = "discrete elements committed; solver measured and cached";
+const SOURCE: &str = "DEM committed; solver measured and cached";
 const TIME: Axis = Axis { label: "t [s]", log: false, range: Some((0.0, 20.0)) };
-/// Style of the discrete elements.
+/// Style of DEM.
 const DISCS: Style = Style { colour: 0, marker: Marker::Circle, line: Line::None, hollow: false, size: 4 };
-/// Style of the discrete elements when they are averaged over the whole box.
+/// Style of DEM when they are averaged over the whole box.
 const DISCS_WHOLE: Style =
     Style { colour: 0, marker: Marker::Square, line: Line::None, hollow: true, size: 4 };
 
@@ -44,10 +44,7 @@ pub fn keys(made: &Made) -> Vec<(Style, String)> {
         .zip(LINES)
         .map(|(name, (line, colour))| (Style::line(colour, line), name))
         .collect();
-    keys.push((
-        Style::marker(0, Marker::Circle),
-        "discrete elements, bars: scatter of the packings".to_string(),
-    ));
+    keys.push((Style::marker(0, Marker::Circle), "DEM, bars: scatter of the packings".to_string()));
     keys
 }
 
@@ -148,9 +145,9 @@ fn pressures(made: &Made) -> Result<String, ReportError> {
     );
     let mut keys = keys(made);
     if let Some(last) = keys.last_mut() {
-        last.1 = "discrete elements, inner region, bars: scatter of the packings".to_string();
+        last.1 = "DEM, inner region, bars: scatter of the packings".to_string();
     }
-    keys.push((DISCS_WHOLE, "discrete elements, whole box".to_string()));
+    keys.push((DISCS_WHOLE, "DEM, whole box".to_string()));
     Figure { id: "pressures", panels, keys, caption, source: SOURCE }.html(&made.report.made)
 }
 
@@ -229,8 +226,8 @@ fn walls(made: &Made) -> Result<String, ReportError> {
         keys.push((Style { line, ..Style::marker(colour, marker) }, name.to_string()));
     }
     let caption = format!(
-        "Fig. #. Normal stress on the walls over time, markers: discrete elements (force of the grains over the length of the wall), lines: solver, grains \
-         that move, in the cells at the wall. Largest difference, solver minus discrete elements [kPa]: {}.",
+        "Fig. #. Normal stress on the walls over time, markers: DEM (force of the grains over the length of the wall), lines: solver, grains \
+         that move, in the cells at the wall. Largest difference, solver minus DEM [kPa]: {}.",
         said.join("; ")
     );
     Figure { id: "walls", panels, keys, caption, source: SOURCE }.html(&made.report.made)

@@ -11,7 +11,7 @@ use msdd_reference::series::statistics;
 use msdd_reference::series::{largest, root_mean_square, spread};
 use msdd_reference::solver::{COLUMNS, Run};
 
-const SOURCE: &str = "discrete elements committed; solver measured and cached";
+const SOURCE: &str = "DEM committed; solver measured and cached";
 
 pub fn section(made: &Made) -> Result<String, ReportError> {
     Ok(start_maps(made)? + &end_maps(made)? + &profiles(made)? + &displacement_map(made)?)
@@ -27,7 +27,7 @@ fn start_maps(made: &Made) -> Result<String, ReportError> {
     let mut panels = Vec::new();
     for (quantity, label, scale, digits) in MAPPED {
         let dem = reference_start(reference, quantity, false);
-        let mut named = vec![("discrete elements", averaged(&dem, scale))];
+        let mut named = vec![("DEM", averaged(&dem, scale))];
         if let Some(runs) = names.first().and_then(|name| made.details.start.get(name)) {
             named.push(("solver", averaged(&values(runs, quantity), scale)));
         }
@@ -58,7 +58,7 @@ fn start_maps(made: &Made) -> Result<String, ReportError> {
     let caption = format!(
         "Fig. #. The start, means over 10 × 3 sub-regions and over the packings (paper, Figs. 8 to 10). Porosity, fabric index and stress of the solver's cells \
          are averages over windows of 215 mm of the discs, which smooth them and leave out the layers at the walls; conductivity is that of the model for this state, and with the paper's \
-         network so is the stress. Mean ± deviation over the sub-regions (discrete elements), rms of the difference over the mean: {}. The paper's network has the \
+         network so is the stress. Mean ± deviation over the sub-regions (DEM), rms of the difference over the mean: {}. The paper's network has the \
          affine conductivity, and is compared with that.",
         said.join(". ")
     );
@@ -95,7 +95,7 @@ fn end_maps(made: &Made) -> Result<String, ReportError> {
     for reference in made.references.iter().filter(|r| !r.case.ends_with("star")) {
         for (quantity, label, scale, digits) in MAPPED {
             let dem = reference_sub_regions(reference, quantity, false);
-            let mut named = vec![("discrete elements", averaged(&dem, scale))];
+            let mut named = vec![("DEM", averaged(&dem, scale))];
             let names = configurations(made);
             // The paper's network has the affine conductivity, which is larger, so it is left out of these maps.
             for name in names.iter().take(2) {
@@ -112,7 +112,7 @@ fn end_maps(made: &Made) -> Result<String, ReportError> {
         }
     }
     let caption = "Fig. #. Means over 10 × 3 sub-regions at the end, and over the packings (paper, Figs. 14, 16, 19): lighter means \
-                   higher, and the maps of a panel have the same scale. K of discrete elements is that of the resistor network solved."
+                   higher, and the maps of a panel have the same scale. K of DEM is that of the resistor network solved."
         .to_string();
     Figure { id: "maps", panels, keys: Vec::new(), caption, source: SOURCE }.html(&made.report.made)
 }
@@ -169,18 +169,14 @@ fn displacement_map(made: &Made) -> Result<String, ReportError> {
     let scatter: Vec<f64> = statistics(&dem).iter().map(|(_, deviation)| 1e3 * deviation).collect();
     let caption = format!(
         "Fig. #. Case HC at the end: displacement along x of the grains that started in each of 10 × 3 sub-regions, means over the packings (paper, Fig. 15). Largest \
-         {:.1} mm (discrete elements {:.1}); difference {:.1} mm rms, {:+.1} mm where it is largest; scatter of the packings {:.1} mm rms.",
+         {:.1} mm (DEM {:.1}); difference {:.1} mm rms, {:+.1} mm where it is largest; scatter of the packings {:.1} mm rms.",
         largest(&cells),
         largest(&discs),
         root_mean_square(&differences),
         largest(&differences),
         root_mean_square(&scatter)
     );
-    let named = [
-        ("discrete elements", discs),
-        ("solver, grains move", cells),
-        ("solver minus discrete elements", differences),
-    ];
+    let named = [("DEM", discs), ("solver, grains move", cells), ("solver minus DEM", differences)];
     let panels = vec![
         in_sub_regions("case HC: u_x [mm]", 1, &named[..2]),
         in_sub_regions("case HC: difference of u_x [mm]", 1, &named[2..]),

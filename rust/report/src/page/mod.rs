@@ -29,7 +29,7 @@ pub fn text(made: &Made) -> Result<String, ReportError> {
     let _ = writeln!(
         page,
         "<h1>Speed against accuracy</h1>\n<p>Heat conduction with thermal expansion in a bed of 15 000 grains: the solver against \
-         discrete elements of the same packings. {} jobs, {} of them from the cache; made {} on {}, commit {}.{}</p>",
+         DEM of the same packings. {} jobs, {} of them from the cache; made {} on {}, commit {}.{}</p>",
         report.jobs,
         report.cached_jobs,
         escape(&stamp.date),
@@ -41,7 +41,7 @@ pub fn text(made: &Made) -> Result<String, ReportError> {
             ""
         }
     );
-    page += "<p class=\"source\">How values are known. <b>committed</b>: the reference by discrete elements, three packings, \
+    page += "<p class=\"source\">How values are known. <b>committed</b>: the reference by DEM, three packings, \
              <code>cases/reference/make</code>, commit as above. <b>measured</b>: by this run of the report. <b>cached</b>: measured by an earlier one \
              with the same programs, parameters and processor. <b>extrapolated</b>: from a shorter run. <b>quoted</b>: from the paper. \
              Nothing is fitted to these runs: conductivity, stress, mechanical tangent and wall friction come from the database of \

@@ -22,7 +22,7 @@ pub fn section(made: &Made) -> Result<String, ReportError> {
         .to_string();
     html += &requests_table(&made.judged.requests);
     html += &figure(made)?;
-    html += "<p>The run comes with 90 % bands. Values of the discrete elements in windows of some 100 grains that lie inside, in the worst scene in brackets, \
+    html += "<p>The run comes with 90 % bands. Values of DEM in windows of some 100 grains that lie inside, in the worst scene in brackets, \
              and the width of the bands over twice the standard deviation between packings (median over the scenes):</p>\n";
     html += &bands_table(&made.judged.bands);
     Ok(html)

@@ -1,4 +1,4 @@
-//! The page on beds of spheres: error against cost beside discrete elements, beds that were measured, limits.
+//! The page on beds of spheres: error against cost beside DEM, beds that were measured, limits.
 
 use super::case::decades;
 use super::html::Figure;
@@ -9,7 +9,7 @@ use msdd_draw::html::{fixed, head, numbered, table};
 use msdd_draw::{Axis, Line, MARKERS, Series, Style, escape, from_data, plot, series};
 use std::fmt::Write;
 
-/// Cases beside discrete elements.
+/// Cases beside DEM.
 const CASES: [&str; 2] = ["column", "store"];
 /// Zehner's materials.
 const MATERIALS: [&str; 5] = ["steel", "copper", "steatite", "ceramic", "lead glass"];
@@ -39,15 +39,15 @@ pub fn text(made: &Made) -> Result<String, ReportError> {
     let mut page = head("MSDD: beds of spheres");
     let _ = writeln!(
         page,
-        "<h1>Beds of spheres</h1>\n<p>The solver with the law of spheres beside discrete elements and measurements; made {} on {}, commit {}.{}</p>",
+        "<h1>Beds of spheres</h1>\n<p>The solver with the law of spheres beside DEM and measurements; made {} on {}, commit {}.{}</p>",
         escape(&stamp.date),
         escape(&stamp.cpu),
         escape(&stamp.commit),
-        if report.quick { " <b>Quick version: few configurations, no discrete elements.</b>" } else { "" }
+        if report.quick { " <b>Quick version: few configurations, no DEM.</b>" } else { "" }
     );
     page += "<h2>Error against cost</h2>\n<p><code>cases/column</code>, 20 000 steel spheres that are pressed while heat flows through them, and <code>cases/store</code>, 20 000 in a \
-             cylinder that is heated and cooled ten times. Errors are root mean squares over all times against discrete elements of the same bed \
-             (<code>elements.csv</code>), which took some 1000 core-s each. Cost is processor time of one process, start and output included. Mesh and steps are not what \
+             cylinder that is heated and cooled ten times. Errors are root mean squares over all times against DEM of the same bed \
+             (<code>dem.csv</code>), which took some 1000 core-s each. Cost is processor time of one process, start and output included. Mesh and steps are not what \
              limits these cases: the law is, and the spheres' own way to settle.</p>\n";
     for quantity in [("T", "T", "% of its range"), ("pressure", "p", "%"), ("conductivity", "K", "%")] {
         page += &against_cost(made, quantity)?;
@@ -141,11 +141,7 @@ fn measured(made: &Made) -> Result<String, ReportError> {
         "<p><code>cases/{MEASURED}</code>: steel spheres of 6.4 mm in air, heated from above (C. Beaulieu, 2020), by the solver with the first layer at the temperature of the plate."
     );
     for (plate, rms) in &spheres.elements {
-        let _ = write!(
-            text,
-            " Discrete elements (<code>cases/beaulieu</code>), plate {}: {rms:.2} K.",
-            escape(plate)
-        );
+        let _ = write!(text, " DEM (<code>cases/beaulieu</code>), plate {}: {rms:.2} K.", escape(plate));
     }
     if let Some(cost) = spheres.elements_core_seconds {
         let _ = write!(text, " They take {cost:.0} core-s, from pouring on.");

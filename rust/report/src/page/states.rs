@@ -201,7 +201,7 @@ fn around_the_middle(made: &Made) -> Result<String, ReportError> {
         "Fig. #. Grains of packing 1 in a window of 120 mm around P2, before and after (paper, Fig. 13): light where they overlap. Porosity of the window: {}.",
         said.join("; ")
     );
-    Figure { id: "grains", panels, keys: Vec::new(), caption, source: "discrete elements committed" }
+    Figure { id: "grains", panels, keys: Vec::new(), caption, source: "DEM committed" }
         .html(&made.report.made)
 }
 

@@ -1,4 +1,4 @@
-//! Section of the page that compares the solver with discrete elements: errors and targets. The figures are in `curves`,
+//! Section of the page that compares the solver with DEM: errors and targets. The figures are in `curves`,
 //! `fields`, `states` and `beyond`.
 
 use super::html::case_name;
@@ -15,7 +15,7 @@ const PAPER: [(&str, [&str; 3], &str); 3] =
 pub fn section(made: &Made) -> Result<String, ReportError> {
     let mut html = "<h2>Validation</h2>\n<p>Each run starts from the fields of one packing and is compared with that packing's discrete \
                     elements; T is a mean over windows of 40 mm. Pressure: the solver's mean against the mean of the discs off the walls (the box without two mean radii along each wall: grains \
-                    at a wall are packed more loosely, which the cells of the solver do not describe), and against the whole box. Errors are solver minus discrete elements where they are largest; in brackets the \
+                    at a wall are packed more loosely, which the cells of the solver do not describe), and against the whole box. Errors are solver minus DEM where they are largest; in brackets the \
                     largest of a single packing. Sub-regions: 10 × 3, at the end, root mean square over all packings; worst one in \
                     brackets.</p>\n"
         .to_string();

@@ -5,7 +5,7 @@ use super::validation::{complete, scatter};
 use crate::jobs::execute::{Outcome, Record};
 use crate::jobs::job::{Job, SolverJob};
 use crate::jobs::pool::{Asked, Records};
-use crate::plan::{self, CHARTED, Configuration, FAMILIES, Known};
+use crate::plan::{self, CHARTED, Configuration, CostSource, FAMILIES};
 use crate::settings::Settings;
 use msdd_reference::compare::{Errors, errors};
 use msdd_reference::packings::{Reference, pressure_range};
@@ -17,14 +17,12 @@ use serde::Serialize;
 pub const WANTED: [f64; 4] = [5.0, 2.0, 1.0, 0.5];
 /// Costs [core-s] that the paper gives in section 3.4: 30 h for its reference, 40 s for a multiscale run, with its errors at
 /// P2 [%].
-const QUOTED: [(&str, f64, Option<[f64; 3]>); 2] = [
-    ("paper: discrete elements, 30 h", 108_000.0, None),
-    ("paper: multiscale, 40 s", 40.0, Some([5.3, 2.8, 6.5])),
-];
-/// Simulated time of a segment, a short run by discrete elements that is only timed [s], and the time steps that are tried [s].
+const QUOTED: [(&str, f64, Option<[f64; 3]>); 2] =
+    [("paper: DEM, 30 h", 108_000.0, None), ("paper: multiscale, 40 s", 40.0, Some([5.3, 2.8, 6.5]))];
+/// Simulated time of a segment, a short run by DEM that is only timed [s], and the time steps that are tried [s].
 const SEGMENT: f64 = 0.1;
 const STEPS: [f64; 2] = [2e-4, 5e-5];
-/// The case that is run to its end by discrete elements. The costs of segments of other cases are multiplied by its ratio of
+/// The case that is run to its end by DEM. The costs of segments of other cases are multiplied by its ratio of
 /// the cost of the whole run to that of a segment.
 const WHOLE: &str = "H";
 
@@ -46,7 +44,7 @@ pub fn start_up() -> Asked {
     Asked { job: Job::Solver(job), guess: 0.5 }
 }
 
-/// Jobs by discrete elements: case H to its end, and segments of all cases, also with shorter steps.
+/// Jobs by DEM: case H to its end, and segments of all cases, also with shorter steps.
 pub fn elements(case: &str) -> Vec<Asked> {
     let segment = |step: Option<f64>| Asked {
         job: plan::elements(case, SEGMENT, step, 600),
@@ -91,19 +89,19 @@ fn point(
     let mut found = None;
     let (mut outcome, mut message) = (Outcome::Done, String::new());
     match &configuration.known {
-        Known::Run => match complete(
+        CostSource::Run => match complete(
             &settings.records(records, configuration, &reference.case),
             settings.packings(configuration),
         ) {
             Ok(runs) => found = errors(&reference.first(runs.len()), &runs, configuration.affine),
             Err(why) => (outcome, message) = why,
         },
-        Known::Segment(end, _) => {
+        CostSource::Segment(end, _) => {
             let start = settings.record(records, &start_up().job).map_or(0.0, |record| record.cpu_seconds);
             core_seconds = core_seconds.map(|cpu| start + (cpu - start).max(0.0) * 20.0 / end);
             how = "extrapolated";
         }
-        Known::Answers(_, name) => {
+        CostSource::Answers(_, name) => {
             core_seconds = cost.and_then(|segment| all_answers(settings, records, reference, segment, name));
             how = "extrapolated";
         }
@@ -157,7 +155,7 @@ fn borrow_errors(points: &mut [Point], quick: bool) {
     }
 }
 
-/// Discrete elements: their error is the scatter between packings, since one run is one packing.
+/// DEM: their error is the scatter between packings, since one run is one packing.
 fn element_points(settings: &Settings, records: &Records, reference: &Reference) -> Vec<Point> {
     let case = reference.case.as_str();
     let cost = |case: &str, end: f64, step: Option<f64>, limit: u64| {

@@ -23,7 +23,7 @@ pub struct Saving {
     pub core_seconds: Option<f64>,
     /// Largest difference of T from the run that computes all, over time and probes [% of the range].
     pub change: Option<f64>,
-    /// Largest error of T against discrete elements [% of the range].
+    /// Largest error of T against DEM [% of the range].
     pub error: Option<f64>,
     pub outcome: String,
     pub message: String,

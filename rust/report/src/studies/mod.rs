@@ -2,7 +2,7 @@
 //!
 //! | module | what |
 //! |---|---|
-//! | [`validation`] | all cases against the discrete elements |
+//! | [`validation`] | all cases against DEM |
 //! | [`targets`] | the accuracy that the validation has to reach |
 //! | [`front`], [`chart`] | error against cost, and the cheapest configuration for a wanted error |
 //! | [`economy`] | how much of a case has to be computed |
@@ -10,7 +10,7 @@
 //! | [`sensitivity`] | influence of the parameters of the mechanics |
 //! | [`other_cases`] | another geometry, another material |
 //! | [`requests`] | what became of requests for an accuracy in the reference scenes |
-//! | [`spheres`] | beds of spheres against discrete elements and measurements |
+//! | [`spheres`] | beds of spheres against DEM and measurements |
 //! | [`known`] | states of the database |
 //! | [`detail`] | runs that write additional data for figures |
 

@@ -30,7 +30,7 @@ const OTHERS: [Other; 2] = [
 /// Name of each way to run a case, and its keys.
 pub const WAYS: [(&str, &str); 2] = [("grains move", ""), ("grains stay", "mechanics none;")];
 
-/// One way to run such a case. Signed: solver minus discrete elements.
+/// One way to run such a case. Signed: solver minus DEM.
 #[derive(Clone, Debug, Serialize)]
 pub struct OtherCase {
     pub case: String,

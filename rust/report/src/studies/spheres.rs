@@ -1,4 +1,4 @@
-//! Beds of spheres: error against cost of the solver beside discrete elements, and beds that were measured.
+//! Beds of spheres: error against cost of the solver beside DEM, and beds that were measured.
 
 use crate::jobs::execute::Outcome;
 use crate::jobs::job::{Job, SpheresJob, ToolJob};
@@ -17,7 +17,7 @@ pub const MEASURED: &str = "steel";
 const EXPERIMENT: &str = "cases/beaulieu/experiment.csv";
 const ZEHNER: &str = "cases/zehner/prediction.csv";
 const BED: &str = "cases/beaulieu";
-/// A run of the solver: cost, and how far it is from discrete elements or measurements.
+/// A run of the solver: cost, and how far it is from DEM or measurements.
 #[derive(Clone, Debug, Serialize)]
 pub struct SphereRun {
     pub case: &'static str,
@@ -46,7 +46,7 @@ pub struct ZehnerBed {
 #[derive(Clone, Debug, Serialize)]
 pub struct Spheres {
     pub runs: Vec<SphereRun>,
-    /// Discrete elements beside the measurements: rms by the way to take the plate \[K\], and the cost of both together.
+    /// DEM beside the measurements: rms by the way to take the plate \[K\], and the cost of both together.
     pub elements: BTreeMap<String, f64>,
     pub elements_core_seconds: Option<f64>,
     pub zehner: Vec<ZehnerBed>,
@@ -64,9 +64,9 @@ struct Configuration {
 }
 
 /// A case, and what is changed in it.
-struct Scene {
+struct CaseVariant {
     case: &'static str,
-    /// Arguments of `cases/common/compare-elements`.
+    /// Arguments of `cases/common/compare-dem`.
     compare: &'static [&'static str],
     /// Cells of the blocks of its mesh, and the directions in which they are changed.
     blocks: &'static [[usize; 3]],
@@ -83,8 +83,8 @@ const FINE: &str = "steps that err by 0.0125 K, second order";
 const FINE_KEYS: &str = "msddFoam { temperatureTolerance 0.0125; }";
 const FIRST: &str = "msddFoam { timeScheme paper; }";
 
-const SCENES: [Scene; 3] = [
-    Scene {
+const SCENES: [CaseVariant; 3] = [
+    CaseVariant {
         case: "column",
         compare: &["lid", "zz", "xx", "yy", "zz"],
         blocks: &[[1, 1, 6], [1, 1, 28]],
@@ -98,7 +98,7 @@ const SCENES: [Scene; 3] = [
         ],
         moves: true,
     },
-    Scene {
+    CaseVariant {
         case: "store",
         compare: &["side", "yy", "yy", "zz", "xx", "0.975"],
         blocks: &[[1, 12, 1], [1, 3, 1]],
@@ -112,7 +112,7 @@ const SCENES: [Scene; 3] = [
         ],
         moves: true,
     },
-    Scene {
+    CaseVariant {
         case: MEASURED,
         compare: &[],
         blocks: &[[2, 2, 100]],
@@ -129,7 +129,7 @@ const SCENES: [Scene; 3] = [
 /// Numbers of cells along each changed direction over those of the shipped case.
 const CELLS: [f64; 3] = [0.25, 0.5, 2.0];
 
-fn configurations(scene: &Scene, quick: bool) -> Vec<Configuration> {
+fn configurations(scene: &CaseVariant, quick: bool) -> Vec<Configuration> {
     let shipped = SpheresJob {
         case: scene.case.to_string(),
         mesh: Vec::new(),
@@ -173,7 +173,7 @@ fn configurations(scene: &Scene, quick: bool) -> Vec<Configuration> {
     list
 }
 
-/// The bed of [`MEASURED`] by discrete elements.
+/// The bed of [`MEASURED`] by DEM.
 fn bed() -> Job {
     Job::Tool(ToolJob {
         arguments: ["bed", "run", BED, "--threads", "1", "--out", "WORK/bed"].map(str::to_string).to_vec(),
@@ -246,7 +246,7 @@ fn unread(file: &Path, problem: &str) -> ReportError {
     ReportError::Read { file: file.to_path_buf(), problem: problem.to_string() }
 }
 
-/// Root mean square and worst difference by quantity in the table of `compare-elements`, whose columns are as wide as its head says.
+/// Root mean square and worst difference by quantity in the table of `compare-dem`, whose columns are as wide as its head says.
 fn differences(table: &str) -> BTreeMap<String, [f64; 2]> {
     const NAMES: [(&str, &str); 4] =
         [("T at the probes", "T"), ("p ", "p"), ("K ", "K"), ("stress on the wall", "stress on the wall")];

@@ -1,4 +1,4 @@
-//! Validation: configurations in all cases against the discrete elements of the same packings.
+//! Validation: configurations in all cases against DEM of the same packings.
 
 use crate::jobs::execute::{Outcome, Record};
 use crate::jobs::pool::Records;

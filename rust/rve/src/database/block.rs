@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 const LARGEST_STRAIN: f64 = 0.2;
 const LARGEST_SLIP: f64 = 1.0;
 /// Least strain at which a ramp may stop on its way back [-].
-const LEAST_RETURN: f64 = -0.2;
+const MIN_RETURN: f64 = -0.2;
 /// Friction angles while a box closes.
 const ANGLES: &str = "0 <= angle < pi/2 rad";
 /// Sizes that an increment of a path and a probe may have [-].
@@ -40,7 +40,7 @@ pub struct Block {
     /// Allowed: 1e-9 to `LARGEST_STRAIN`; of `wall_shear` 1e-9 to `LARGEST_SLIP`.
     pub stops: Vec<f64>,
     /// Strains at which the ramps `up_down` and `down_up` stop on their way back, falling; 0 is the packed state, and values below
-    /// 0 lie beyond it. Allowed: `LEAST_RETURN` to below the last stop. Default: the stops backwards, then 0.
+    /// 0 lie beyond it. Allowed: `MIN_RETURN` to below the last stop. Default: the stops backwards, then 0.
     #[serde(default)]
     pub return_stops: Vec<f64>,
     /// What is around a box: rigid `walls`, or a box that repeats itself without end, `periodic`. Not `periodic` in `wall_shear`.
@@ -214,11 +214,11 @@ impl Block {
     fn check_returns(&self) -> Result<(), String> {
         let turn = self.stops.last().copied().unwrap_or(0.0);
         let falling = self.return_stops.windows(2).all(|pair| pair[0] > pair[1]);
-        let inside = self.return_stops.iter().all(|&s| s < turn && s >= LEAST_RETURN);
+        let inside = self.return_stops.iter().all(|&s| s < turn && s >= MIN_RETURN);
         if falling && inside {
             return Ok(());
         }
-        let allowed = format!("falling, below {turn}, at least {LEAST_RETURN}");
+        let allowed = format!("falling, below {turn}, at least {MIN_RETURN}");
         Err(format!("return_stops: {:?}, allowed: {allowed}", self.return_stops))
     }
 

@@ -3,7 +3,7 @@
 use super::table::{Column, Row};
 use super::{DatabaseError, Dataset, checksum};
 use crate::message::shortened;
-use msdd_files::{FileError, MOST_BYTES};
+use msdd_files::{FileError, MAX_BYTES};
 use rusqlite::types::ValueRef;
 use std::collections::{BTreeMap, BTreeSet};
 use std::io::{self, Read};
@@ -128,7 +128,7 @@ fn reader<'a>(
     let whole = io::Cursor::new(start).chain(text);
     let plain: Box<dyn Read + 'a> =
         if packed { Box::new(flate2::read::GzDecoder::new(whole)) } else { Box::new(whole) };
-    Ok(csv::Reader::from_reader(Bounded { text: plain, left: MOST_BYTES, line: 0 }))
+    Ok(csv::Reader::from_reader(Bounded { text: plain, left: MAX_BYTES, line: 0 }))
 }
 
 /// The position of each column in the file.
@@ -190,7 +190,7 @@ impl<R: Read> Read for Bounded<R> {
             return Err(io::Error::other(format!("a line has more than {LONGEST_LINE} bytes")));
         }
         let Some(left) = self.left.checked_sub(count as u64) else {
-            let problem = format!("unpacked, it has more than {MOST_BYTES} bytes, the most that is read");
+            let problem = format!("unpacked, it has more than {MAX_BYTES} bytes, the most that is read");
             return Err(io::Error::other(problem));
         };
         self.left = left;

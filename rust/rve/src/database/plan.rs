@@ -105,7 +105,7 @@ impl Job {
 }
 
 /// A plan with more packings is taken as a typing error: it would compute for months.
-const MOST_PACKINGS: u64 = 1_000_000;
+const MAX_PACKINGS: u64 = 1_000_000;
 
 impl Plan {
     /// Reads a plan. `file` names it in errors.
@@ -138,8 +138,8 @@ impl Plan {
             block.check().map_err(within)?;
         }
         let packings = self.blocks().map(|(_, block)| block.packings().count()).fold(0, u64::saturating_add);
-        if packings > MOST_PACKINGS {
-            return Err(format!("{packings} packings, allowed: {MOST_PACKINGS}"));
+        if packings > MAX_PACKINGS {
+            return Err(format!("{packings} packings, allowed: {MAX_PACKINGS}"));
         }
         let jobs = self.jobs();
         if jobs.is_empty() {

@@ -100,7 +100,7 @@ const SHARED: [&str; 5] = ["engine_version", "material", "radius_distribution", 
 pub fn read_all(paths: &[PathBuf]) -> Result<Dataset, DatabaseError> {
     let mut all = Dataset { records: Vec::new(), provenance: BTreeMap::new() };
     let mut plans = Vec::new();
-    let mut known = Known::default();
+    let mut known = ReadPackings::default();
     for path in paths {
         let dataset = read(path)?;
         sound::<Plan>(path, &dataset)?;
@@ -137,7 +137,7 @@ type Key = (u64, u64, String, String);
 
 /// The packings of the files read so far.
 #[derive(Default)]
-struct Known(BTreeMap<Key, Vec<Packing>>);
+struct ReadPackings(BTreeMap<Key, Vec<Packing>>);
 
 struct Packing {
     /// Target porosity and friction angle while packing; exports may have rounded them.
@@ -149,7 +149,7 @@ struct Packing {
 /// Largest relative change of a value by rounding to three digits.
 const ROUNDING: f64 = 0.006;
 
-impl Known {
+impl ReadPackings {
     /// Adds the packings of a file. A packing that is known already is an error: it would be in both the packings for
     /// training and those held out for testing.
     fn add(&mut self, path: &Path, records: &[Record]) -> Result<(), DatabaseError> {

@@ -50,7 +50,7 @@ fn of<R: Row>(path: &Path) -> Result<Stored, DatabaseError> {
 /// # Errors
 /// [`DatabaseError::Plan`].
 pub fn planned_packings(text: &str, file: &str) -> Result<(String, usize), DatabaseError> {
-    Ok(if SpherePlan::is_meant(text) {
+    Ok(if SpherePlan::has_sphere_schema(text) {
         let plan = SpherePlan::parse(text, file)?;
         (plan.hash(), plan.jobs().len())
     } else {

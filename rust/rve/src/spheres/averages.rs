@@ -1,9 +1,9 @@
 //! Averages of a periodic box of spheres.
 
 use super::strain::{PLACES, Tensor};
+use msdd_beds::conductances::{Link, contact_links, near_pairs};
 use msdd_beds::conductivity::{conductivity, mean};
 use msdd_beds::gas::gas_conductance;
-use msdd_beds::links::{Link, contact_links, near_pairs};
 use msdd_beds::solid::Solid;
 use msdd_spheres::{Cell, Simulation};
 
@@ -52,7 +52,7 @@ pub fn averages(simulation: &Simulation) -> Option<Averages> {
     let mut gas_conductivity = [0.0; 3];
     for (value, number) in gas_conductivity.iter_mut().zip(GAS_NUMBERS) {
         let distance = libm::exp(-number);
-        let link = |pair: &msdd_beds::links::Near| Link {
+        let link = |pair: &msdd_beds::conductances::Near| Link {
             i: pair.i,
             j: pair.j,
             branch: pair.branch,

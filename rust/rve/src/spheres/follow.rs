@@ -24,8 +24,8 @@ const FORCE_FLOOR: f64 = 1e-12;
 /// p/E* below which the grains count as bearing no load.
 pub const UNJAMMED_PRESSURE: f64 = 1e-10;
 /// Steps after which a box that is not at rest is given up, and steps without load after which it counts as unjammed.
-const MOST_STEPS: u64 = 30_000;
-const MOST_UNJAMMED: u64 = 2_000;
+const MAX_STEPS: u64 = 30_000;
+const MAX_UNJAMMED: u64 = 2_000;
 /// Steps between two checks.
 const LOOK_EVERY: u64 = 50;
 
@@ -90,7 +90,7 @@ fn gradient(step: Strain, done: f64, per_time: f64) -> Matrix {
 /// # Errors
 /// The [`Failure`] of a run.
 pub fn rest(simulation: &mut Simulation, since: u64) -> Result<Rest, Failure> {
-    let (end, mut unloaded) = (simulation.steps + MOST_STEPS, 0);
+    let (end, mut unloaded) = (simulation.steps + MAX_STEPS, 0);
     loop {
         simulation.drag = DRAG * per_time(simulation, UNJAMMED_PRESSURE);
         simulation.run(LOOK_EVERY)?;
@@ -100,7 +100,7 @@ pub fn rest(simulation: &mut Simulation, since: u64) -> Result<Rest, Failure> {
         let outcome = match bears_load {
             true if unbalanced < BALANCED => Outcome::Settled,
             true if simulation.steps >= end => Outcome::Capped,
-            false if unloaded >= MOST_UNJAMMED || simulation.steps >= end => Outcome::Unjammed,
+            false if unloaded >= MAX_UNJAMMED || simulation.steps >= end => Outcome::Unjammed,
             _ => continue,
         };
         simulation.drag = 0.0;

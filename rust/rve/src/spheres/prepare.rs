@@ -10,7 +10,7 @@ use msdd_spheres::{Failure, Simulation};
 
 /// Least p/E* at which a box is packed; lower ones are reached by opening it, or by pressing it again where it is shaken. A packing
 /// below has to creep for hundreds of thousands of steps, and the number of contacts changes less with the pressure the lower it is.
-const LEAST_PACKING_PRESSURE: f64 = 1e-6;
+const MIN_PACKING_PRESSURE: f64 = 1e-6;
 /// Steps after which packing is given up; at the least pressure and without friction it takes about 150 000.
 const PACKING_STEPS: u64 = 600_000;
 /// Relative error of the pressure that is accepted.
@@ -22,14 +22,14 @@ const ATTEMPTS: u32 = 40;
 const SLOPE: f64 = 0.45;
 const OPENS_TO: f64 = 0.3;
 /// Part of an increment at which a box that loses its load at once is left with the pressure that it still bears.
-const LEAST_SCALE: f64 = 0.05;
+const MIN_SCALE: f64 = 0.05;
 
 /// Spheres of a packing, pressures over E*, and openings of boxes that are shaken: with less, spheres still touch.
 pub const SPHERES: [usize; 2] = [50, 1_000_000];
 pub const PACKED_PRESSURES: [f64; 2] = [1e-8, 1e-3];
 pub const SHAKING: [f64; 2] = [0.002, 0.1];
 /// Largest friction of spheres.
-pub const MOST_FRICTION: f64 = 2.0;
+pub const MAX_FRICTION: f64 = 2.0;
 
 /// What to prepare.
 #[derive(Clone, Debug, PartialEq)]
@@ -75,7 +75,7 @@ impl Preparation {
         let inside = |value: f64, [least, most]: [f64; 2]| (least..=most).contains(&value);
         let text = |[least, most]: [f64; 2]| format!("{least:?} to {most:?}");
         let spheres = SPHERES.map(|count| count as f64);
-        let (frictions, shaking) = ([0.0, MOST_FRICTION], self.shaking);
+        let (frictions, shaking) = ([0.0, MAX_FRICTION], self.shaking);
         let parameters = [
             ("spheres", self.spheres as f64, inside(self.spheres as f64, spheres), text(spheres)),
             ("friction", self.friction, inside(self.friction, frictions), text(frictions)),
@@ -113,7 +113,7 @@ pub fn prepare(preparation: &Preparation) -> Result<Prepared, PrepareError> {
         seed,
         diameter: 1.0,
         material: material(poisson_ratio, preparation.packing_friction, restitution),
-        pressure: preparation.pressure.max(LEAST_PACKING_PRESSURE),
+        pressure: preparation.pressure.max(MIN_PACKING_PRESSURE),
         steps: PACKING_STEPS,
     };
     let mut simulation = stopwatch::time(Stage::Packing, || pack_along(&packing, rates))?.simulation;
@@ -155,7 +155,7 @@ fn bring_to(
         if opens && pressure(&tried) < (1.0 - NEAR) * target {
             // Contact is lost suddenly: it is tried again with less.
             scale *= 0.5;
-            if scale < LEAST_SCALE {
+            if scale < MIN_SCALE {
                 return Ok(rest);
             }
             continue;

@@ -48,7 +48,7 @@ pub struct Core {
     pub law: Law,
     pub readout: Readout,
     pub conductivity: Conductivity,
-    /// Known ranges of the state columns and of the thermal strain.
+    /// InitialData ranges of the state columns and of the thermal strain.
     pub ranges: [Range; COLUMNS + 1],
 }
 
@@ -92,11 +92,11 @@ impl Core {
         let floor = 2.0 * CONDUCTIVITY_FLOOR;
         if found > floor {
             let contacts = (found - floor).max(f64::EPSILON * floor);
-            state[OWN_MEAN] = limited((known - floor) / contacts - 1.0, MOST_GIVEN);
+            state[OWN_MEAN] = limited((known - floor) / contacts - 1.0, MAX_GIVEN);
         }
         let known = known.max(f64::MIN_POSITIVE);
-        state[OWN_INDEX] = limited((xx - yy) / known - (kxx - kyy) / found, MOST_GIVEN);
-        state[OWN_SHEAR] = limited(2.0 * xy / known - 2.0 * kxy / found, MOST_GIVEN);
+        state[OWN_INDEX] = limited((xx - yy) / known - (kxx - kyy) / found, MAX_GIVEN);
+        state[OWN_SHEAR] = limited(2.0 * xy / known - 2.0 * kxy / found, MAX_GIVEN);
     }
 
     /// Strains a block of cells. Without strain the state stays as it is, bit for bit. A lane's answer depends on that lane
@@ -119,11 +119,11 @@ impl Core {
         after: &mut Answer,
         tangent: Option<&mut Tangent>,
     ) {
-        let turn = rotation(read::<V>(&strain.rotation, MOST_TURN));
+        let turn = rotation(read::<V>(&strain.rotation, MAX_TURN));
         let before = elastic::<V>(&self.law, state);
-        let thermal = read::<V>(&strain.thermal, MOST_STRAIN);
-        let (xx, yy) = (read::<V>(&strain.xx, MOST_STRAIN), read::<V>(&strain.yy, MOST_STRAIN));
-        let xy = read::<V>(&strain.xy, MOST_STRAIN);
+        let thermal = read::<V>(&strain.thermal, MAX_STRAIN);
+        let (xx, yy) = (read::<V>(&strain.xx, MAX_STRAIN), read::<V>(&strain.yy, MAX_STRAIN));
+        let xy = read::<V>(&strain.xy, MAX_STRAIN);
         let (next, moduli) = match tangent {
             None => {
                 let strain = Strain { thermal: Plain(thermal), xx: Plain(xx), yy: Plain(yy), xy: Plain(xy) };
@@ -202,19 +202,19 @@ impl Core {
         let stress = self.law.stress(next, moduli);
         let features = Features::of(&stress, next.looseness().0);
         let porosity = V::all(1.0) - next.solid().0 + self.readout.overlap(&features);
-        let porosity = porosity.within(V::zero(), V::all(MOST_POROSITY));
+        let porosity = porosity.within(V::zero(), V::all(MAX_POROSITY));
         // Part of the fabric follows the stress; the rest of it turns with the cell, by twice its angle.
         let old = self.law.stress(before, &self.law.moduli(before.compression, before.looseness()));
         let old = Features::of(&old, before.looseness().0);
         let from =
-            self.readout.fabric(&old, V::read(&state[POROSITY]).within(V::zero(), V::all(MOST_POROSITY)));
+            self.readout.fabric(&old, V::read(&state[POROSITY]).within(V::zero(), V::all(MAX_POROSITY)));
         let to = self.readout.fabric(&features, porosity);
-        let along = read::<V>(&state[FABRIC_INDEX], MOST_FABRIC) - from[0];
-        let rest = [along, read::<V>(&state[FABRIC_SHEAR], MOST_FABRIC) - from[1]];
+        let along = read::<V>(&state[FABRIC_INDEX], MAX_FABRIC) - from[0];
+        let rest = [along, read::<V>(&state[FABRIC_SHEAR], MAX_FABRIC) - from[1]];
         let rest = turned_twice(rest, turn);
-        let (low, high) = (V::all(-MOST_FABRIC), V::all(MOST_FABRIC));
+        let (low, high) = (V::all(-MAX_FABRIC), V::all(MAX_FABRIC));
         let fabric = [(rest[0] + to[0]).within(low, high), (rest[1] + to[1]).within(low, high)];
-        let own = [read::<V>(&state[OWN_INDEX], MOST_FABRIC), read::<V>(&state[OWN_SHEAR], MOST_FABRIC)];
+        let own = [read::<V>(&state[OWN_INDEX], MAX_FABRIC), read::<V>(&state[OWN_SHEAR], MAX_FABRIC)];
         let own = turned_twice(own, turn);
         let mut values = [V::zero(); COLUMNS];
         values[POROSITY] = porosity;
@@ -240,10 +240,10 @@ impl Core {
         q2.write(&mut after.stress[2]);
         // The conductivity is that of the state that is answered, so that it is the same, to the last bit, when that state is
         // evaluated again.
-        let porosity = values[POROSITY].within(V::zero(), V::all(MOST_POROSITY));
+        let porosity = values[POROSITY].within(V::zero(), V::all(MAX_POROSITY));
         let fabric = [values[FABRIC_INDEX].within(low, high), values[FABRIC_SHEAR].within(low, high)];
         let own = [values[OWN_INDEX].within(low, high), values[OWN_SHEAR].within(low, high)];
-        let own = (values[OWN_MEAN].within(V::all(-MOST_OWN), V::all(MOST_OWN)), own);
+        let own = (values[OWN_MEAN].within(V::all(-MAX_OWN), V::all(MAX_OWN)), own);
         let conductivity = self.conductivity.at(&features, porosity, fabric, own);
         for (value, column) in conductivity.into_iter().zip(&mut after.conductivity) {
             value.write(column);
@@ -266,20 +266,20 @@ fn beyond<V: Vector>(values: &Lanes, range: &Range, outside: &mut Lanes) {
 }
 
 /// Largest porosity and fabric that a state may reach.
-const MOST_POROSITY: f64 = 0.99;
-const MOST_FABRIC: f64 = 0.9;
+const MAX_POROSITY: f64 = 0.99;
+const MAX_FABRIC: f64 = 0.9;
 /// Beyond these, states and strains are taken at these ends, so that no input overflows. All are far from what grains do.
-const LEAST_JAMMING: f64 = 0.3;
-const MOST_JAMMING: f64 = 1.3;
-const LEAST_COMPRESSION: f64 = -0.9;
-const MOST_COMPRESSION: f64 = 1.0;
-const MOST_SHEAR: f64 = 1.0;
-const LEAST_STRENGTH: f64 = 0.01;
-const MOST_STRAIN: f64 = 0.5;
-const MOST_TURN: f64 = 1.0;
-const MOST_OWN: f64 = 0.9;
+const MIN_JAMMING: f64 = 0.3;
+const MAX_JAMMING: f64 = 1.3;
+const MIN_COMPRESSION: f64 = -0.9;
+const MAX_COMPRESSION: f64 = 1.0;
+const MAX_SHEAR: f64 = 1.0;
+const MIN_STRENGTH: f64 = 0.01;
+const MAX_STRAIN: f64 = 0.5;
+const MAX_TURN: f64 = 1.0;
+const MAX_OWN: f64 = 0.9;
 /// Largest difference of a packing's own conductivity that is taken over.
-const MOST_GIVEN: f64 = 0.5;
+const MAX_GIVEN: f64 = 0.5;
 
 /// A column, limited on both sides.
 #[inline(always)]
@@ -289,16 +289,15 @@ fn read<V: Vector>(lanes: &Lanes, most: f64) -> V {
 
 #[inline(always)]
 fn elastic<V: Vector>(law: &Law, state: &StateLanes) -> Elastic<Plain<V>> {
-    let jamming = Plain(V::read(&state[JAMMING]).within(V::all(LEAST_JAMMING), V::all(MOST_JAMMING)));
-    let compression =
-        V::read(&state[COMPRESSION]).within(V::all(LEAST_COMPRESSION), V::all(MOST_COMPRESSION));
+    let jamming = Plain(V::read(&state[JAMMING]).within(V::all(MIN_JAMMING), V::all(MAX_JAMMING)));
+    let compression = V::read(&state[COMPRESSION]).within(V::all(MIN_COMPRESSION), V::all(MAX_COMPRESSION));
     let compression = Plain(compression);
     let mut all = [[jamming; 2]; ELEMENTS];
     for k in 0..ELEMENTS {
-        let along = read::<V>(&state[SHEAR + 2 * k], MOST_SHEAR);
-        all[k] = [Plain(along), Plain(read::<V>(&state[SHEAR + 2 * k + 1], MOST_SHEAR))];
+        let along = read::<V>(&state[SHEAR + 2 * k], MAX_SHEAR);
+        all[k] = [Plain(along), Plain(read::<V>(&state[SHEAR + 2 * k + 1], MAX_SHEAR))];
     }
-    let strength = V::read(&state[STRENGTH]).within(V::all(LEAST_STRENGTH), V::all(law.most_strength()));
+    let strength = V::read(&state[STRENGTH]).within(V::all(MIN_STRENGTH), V::all(law.most_strength()));
     let strength = Plain(strength);
     Elastic { jamming, compression, shear: all, strength }
 }

@@ -24,7 +24,7 @@ const ROBUST: f64 = 0.03;
 /// Weight of the differences of probes over their strain.
 pub(super) const PROBE_WEIGHT: f64 = 0.6;
 /// Number of grains of a packing whose errors have the weight 1; that of others goes with the root of their number.
-pub(super) const USUAL_DISCS: f64 = 500.0;
+pub(super) const DEFAULT_DISCS: f64 = 500.0;
 /// Largest residual.
 pub(super) const MOST: f64 = 1.0;
 /// Relative step of the numerical derivatives.
@@ -63,7 +63,7 @@ pub fn parameters(law: &Law) -> DVector<f64> {
 /// The law of these parameters, with the nearest numbers that [`Law::check`] allows.
 pub fn law(x: &DVector<f64>) -> Law {
     let positive = |k: usize, least: f64, most: f64| x[k].exp().clamp(least, most);
-    let share = (1.0 / (1.0 + (-x[7]).exp())).clamp(LEAST_SHARE, 1.0 - LEAST_SHARE);
+    let share = (1.0 / (1.0 + (-x[7]).exp())).clamp(MIN_SHARE, 1.0 - MIN_SHARE);
     let element = |share, k, dilatancy| Element { share, strength: positive(k, 1e-6, 1e3), dilatancy };
     let (first, second) = (positive(0, 1e-6, 1e6), x[2].clamp(-1e6, 1e6));
     Law {
@@ -78,7 +78,7 @@ pub fn law(x: &DVector<f64>) -> Law {
 }
 
 /// Least part of the shear modulus that an element has.
-const LEAST_SHARE: f64 = 2e-6;
+const MIN_SHARE: f64 = 2e-6;
 
 /// Where the fit begins: values of the grains of the paper, to one digit.
 pub fn beginning() -> Law {
@@ -171,7 +171,7 @@ pub(super) fn over(pressure: f64) -> f64 {
 }
 
 fn add_residuals(track: &Track, found: &[[f64; 3]], residuals: &mut Vec<f64>) {
-    let weight = (track.discs as f64 / USUAL_DISCS).sqrt();
+    let weight = (track.discs as f64 / DEFAULT_DISCS).sqrt();
     let mut push = |error: f64| residuals.push((weight * error).clamp(-MOST, MOST));
     for (k, step) in track.steps.iter().enumerate() {
         if !step.to.load_bearing {
@@ -202,7 +202,7 @@ pub fn fit(problem: &PathFit, epochs: u32, mut watch: impl FnMut(u32, f64)) -> (
 }
 
 /// Least p̃ of states to which the readouts are fitted: below, the packings are losing their contacts one by one.
-const LEAST_PRESSURE: f64 = 1e-3;
+const MIN_PRESSURE: f64 = 1e-3;
 
 /// A state of the database beside the law's.
 struct Seen<'a> {
@@ -229,7 +229,7 @@ pub fn readouts(
     let mut all = Vec::new();
     for (track, states) in tracks.iter().zip(states) {
         let first = all.len();
-        let usable = |point: &Point| point.load_bearing && point.invariants()[0] >= LEAST_PRESSURE;
+        let usable = |point: &Point| point.load_bearing && point.invariants()[0] >= MIN_PRESSURE;
         if !usable(&track.packed) {
             continue;
         }
@@ -273,12 +273,12 @@ pub fn readouts(
 const ROUNDS: usize = 10;
 /// A state of a path counts as much as the logarithm of its pressure over that of its packing, but within these bounds: most
 /// of the states are near their packing, and what matters is how far they are right on the way.
-const LEAST_WEIGHT: f64 = 0.1;
-const MOST_WEIGHT: f64 = 1.0;
+const MIN_WEIGHT: f64 = 0.1;
+const MAX_WEIGHT: f64 = 1.0;
 
 fn weight(seen: &Seen, all: &[Seen]) -> f64 {
     let pressures = seen.features.pressure / all[seen.start].features.pressure;
-    (LEAST_WEIGHT + pressures.ln().abs()).min(MOST_WEIGHT)
+    (MIN_WEIGHT + pressures.ln().abs()).min(MAX_WEIGHT)
 }
 
 /// Fits the conductivities of the packings, and how they change along the paths: a packing's own conductivity stays.

@@ -42,26 +42,26 @@ pub struct Element {
 }
 
 /// Porosity without stress of the packing for which k₀ and the dilatancies are given: z is measured from it.
-const USUAL_POROSITY: f64 = 0.17;
+const REFERENCE_POROSITY: f64 = 0.17;
 /// Between these lie all packings of the training, and the polynomials in z make sense.
-const LEAST_LOOSENESS: f64 = -0.035;
-const MOST_LOOSENESS: f64 = 0.05;
+const MIN_LOOSENESS: f64 = -0.035;
+const MAX_LOOSENESS: f64 = 0.05;
 /// Least k₀ (1 + looseness·z) over k₀.
-const LEAST_BULK: f64 = 0.1;
+const MIN_BULK: f64 = 0.1;
 /// How far grains part until they have settled [-]: v reaches this below 0.
 const SETTLED: f64 = 0.02;
 /// Largest elastic compression: that of grains which overlap by a third of their radius.
-const MOST_COMPRESSION: f64 = 0.6;
+const MAX_COMPRESSION: f64 = 0.6;
 /// Least p/A, which only packings far beyond all known ones reach. The largest deviator over A is smaller.
-const LEAST_SHARE: f64 = 0.75;
+const MIN_SHARE: f64 = 0.75;
 /// Largest deviator over A, whatever a state's factor of the strengths.
-const MOST_DEVIATOR: f64 = 0.74;
+const MAX_DEVIATOR: f64 = 0.74;
 /// Largest factor of the strengths, also where the deviator over A would still be smaller.
-const MOST_STRENGTH: f64 = 3.0;
+const MAX_STRENGTH: f64 = 3.0;
 /// Far below all pressures, and such that no quotient overflows.
-const LEAST_PRESSURE: f64 = 1e-100;
+const MIN_PRESSURE: f64 = 1e-100;
 /// Largest work of dilatancy over that of friction: less than 1, so that sliding always dissipates.
-const MOST_CLIMBING: f64 = 0.9;
+const MAX_CLIMBING: f64 = 0.9;
 /// Load over strength from which an element slides: so little above 1 that a state which slides stays as it is, to the last
 /// bit, when it is evaluated again.
 const SLACK: f64 = 1.0 + 1e-9;
@@ -91,8 +91,8 @@ impl<N: Number> Elastic<N> {
     /// z: the porosity without stress, less the usual one; for packings denser or looser than all that are known, theirs.
     #[inline(always)]
     pub fn looseness(&self) -> N {
-        let (least, most) = (N::all(LEAST_LOOSENESS), N::all(MOST_LOOSENESS));
-        let loose = self.jamming.times(-1.0).plus(1.0 - USUAL_POROSITY);
+        let (least, most) = (N::all(MIN_LOOSENESS), N::all(MAX_LOOSENESS));
+        let loose = self.jamming.times(-1.0).plus(1.0 - REFERENCE_POROSITY);
         let loose = loose.where_greater(least, loose, least);
         loose.where_greater(most, most, loose)
     }
@@ -114,7 +114,7 @@ impl<N: Number> Moduli<N> {
     /// p of a packing with this Σ w γ². It is never so small that a direction is in tension.
     #[inline(always)]
     fn under_shear(&self, square: N) -> N {
-        let (shear, least) = ((self.growth * square).times(0.5), self.pressure.times(LEAST_SHARE - 1.0));
+        let (shear, least) = ((self.growth * square).times(0.5), self.pressure.times(MIN_SHARE - 1.0));
         self.pressure + shear.where_greater(least, shear, least)
     }
 }
@@ -136,7 +136,7 @@ impl Law {
     #[inline(always)]
     pub fn moduli<N: Number>(&self, compression: N, loose: N) -> Moduli<N> {
         let zero = N::all(0.0);
-        let (most, least) = (N::all(MOST_COMPRESSION), N::all(LEAST_BULK));
+        let (most, least) = (N::all(MAX_COMPRESSION), N::all(MIN_BULK));
         let touching = compression.where_greater(zero, compression, zero);
         let v = touching.where_greater(most, most, touching);
         let [l0, l1, l2] = self.looseness;
@@ -149,8 +149,8 @@ impl Law {
         let limit = if second < 0.0 { N::all(1.0) } else { stiffer };
         let second = stiffer.where_greater(limit, limit, stiffer).times(second);
         // The bulk modulus stays positive up to the largest compression, however loose the packing is.
-        let softest = (first.times(0.5) + second.times(MOST_COMPRESSION))
-            .times(-1.0 / (MOST_COMPRESSION * MOST_COMPRESSION));
+        let softest = (first.times(0.5) + second.times(MAX_COMPRESSION))
+            .times(-1.0 / (MAX_COMPRESSION * MAX_COMPRESSION));
         let limited = |third: f64, softest: N| {
             let third = N::all(third);
             third.where_greater(softest, third, softest)
@@ -169,7 +169,7 @@ impl Law {
     /// Largest factor of the strengths that a state may have: with it no direction is in tension. At least 1.
     #[inline(always)]
     pub fn most_strength(&self) -> f64 {
-        (MOST_DEVIATOR / self.strength()).clamp(1.0, MOST_STRENGTH)
+        (MAX_DEVIATOR / self.strength()).clamp(1.0, MAX_STRENGTH)
     }
 
     /// Largest deviator over A of a state whose factor of the strengths is 1.
@@ -232,8 +232,8 @@ impl Law {
             square = square + (lengths[k] * lengths[k]).times(share);
         }
         // Grains that climb work against the pressure, at most as much as friction lets them.
-        let most = moduli.under_shear(square).plus(LEAST_PRESSURE).inverse();
-        let most = most * moduli.pressure.plus(LEAST_PRESSURE) * state.strength.times(-MOST_CLIMBING);
+        let most = moduli.under_shear(square).plus(MIN_PRESSURE).inverse();
+        let most = most * moduli.pressure.plus(MIN_PRESSURE) * state.strength.times(-MAX_CLIMBING);
         let mut loss = zero;
         for (slid, element) in slid.into_iter().zip(&self.elements) {
             let (climbing, least) = (more.plus(element.dilatancy), most.times(element.strength));
@@ -272,7 +272,7 @@ impl Law {
         let [k0, k1, k2] = self.bulk;
         let [g0, a, g1] = self.shear;
         // The bulk modulus must stay positive up to the largest compression.
-        let stiff = |v: f64| LEAST_BULK * k0 + k1 * v + k2 * v * v > 0.0;
+        let stiff = |v: f64| MIN_BULK * k0 + k1 * v + k2 * v * v > 0.0;
         let numbers = [
             ("bulk[0]", k0, (1e-6..=1e6).contains(&k0), "1e-6 to 1e6"),
             ("bulk[1]", k1, k1.abs() <= 1e6, "-1e6 to 1e6"),
@@ -320,7 +320,7 @@ impl Law {
 
 /// Least k₂ with which the bulk modulus stays positive up to the largest compression, as [`Law::check`] wants it.
 pub fn least_third_bulk(first: f64, second: f64) -> f64 {
-    let least = |v: f64| -(0.99 * LEAST_BULK * first + second * v) / (v * v);
+    let least = |v: f64| -(0.99 * MIN_BULK * first + second * v) / (v * v);
     (1..=60).map(|k| least(0.01 * f64::from(k))).fold(-1e6, f64::max)
 }
 

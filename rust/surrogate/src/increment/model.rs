@@ -15,10 +15,12 @@ use crate::kernel::LANES;
 use crate::kernel::vector::{Arithmetic, Portable};
 use crate::network::WEIGHT_LIMIT;
 use crate::options::TrainingOptions;
-use crate::region::{Coordinates, MOST_COORDINATES, Region, Spread};
+use crate::region::{Coordinates, MAX_COORDINATES, Region, Spread};
 use crate::scaling::Range;
 use crate::solid_fraction::SolidFraction;
-use crate::surrogate::{Answer, Doubt, Increment, Known, MAX_STATE, StateLanes, Surrogate, Tangent};
+use crate::surrogate::{
+    Answer, Increment, InitialData, MAX_STATE, StateLanes, Surrogate, Tangent, Uncertainty,
+};
 use crate::tracks::{PathErrors, ProbeErrors, Track};
 use crate::wall_friction::WallFriction;
 use serde::{Deserialize, Serialize};
@@ -161,7 +163,7 @@ impl Ranges {
 
     /// Porosity, length of the fabric, √p̃ and length of q̃/p̃, about from −1 to 1: they do not depend on the axes.
     pub(crate) fn coordinates(&self, state: &[f64; MAX_STATE], features: &Features<f64>) -> Coordinates {
-        let mut point = [0.0; MOST_COORDINATES];
+        let mut point = [0.0; MAX_COORDINATES];
         let Range { min, max } = self.porosity;
         point[0] = (2.0 * state[POROSITY] - min - max) / (max - min).max(f64::MIN_POSITIVE);
         point[1] = 2.0 * state[FABRIC_INDEX].hypot(state[FABRIC_SHEAR]) / self.fabric.max - 1.0;
@@ -313,7 +315,7 @@ impl Surrogate for IncrementModel {
         &NAMES
     }
 
-    fn initial_state(&self, known: &Known) -> [f64; MAX_STATE] {
+    fn initial_state(&self, known: &InitialData) -> [f64; MAX_STATE] {
         let fabric = [known.fabric_index, 2.0 * known.fabric_xy];
         let stress = known.reduced_stress.map_or_else(
             || self.file.mean_stress.at(known.porosity, fabric),
@@ -336,11 +338,11 @@ impl Surrogate for IncrementModel {
         self.core.advance(state, strain, answer, tangent);
     }
 
-    fn doubt(&self, state: &[f64; MAX_STATE]) -> Option<Doubt> {
+    fn uncertainty(&self, state: &[f64; MAX_STATE]) -> Option<Uncertainty> {
         let features = features(&self.core, state);
         let point = self.file.ranges.coordinates(state, &features);
         let [conductivity_spread, pressure_rate_spread] = self.file.spread.at(features.pressure);
-        Some(Doubt {
+        Some(Uncertainty {
             beyond_hull: self.file.region.beyond_hull(&point),
             distance: self.file.region.distance(&point),
             conductivity_spread,

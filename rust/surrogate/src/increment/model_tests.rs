@@ -32,7 +32,7 @@ fn softening() -> IncrementModel {
 fn a_law_that_softens_has_starts_with_the_stress_that_is_known() {
     let model = softening();
     for (porosity, p) in [(0.19, 0.001), (0.17, 0.015), (0.13, 0.04)] {
-        let known = Known { porosity, reduced_stress: Some([p, p, 0.0]), ..Known::default() };
+        let known = InitialData { porosity, reduced_stress: Some([p, p, 0.0]), ..InitialData::default() };
         let answer = model.evaluate(&model.initial_state(&known), 0.0);
         assert!((answer.stress[0][0] / p - 1.0).abs() < 1e-6, "{porosity} {p}: {answer:?}");
     }
@@ -147,14 +147,15 @@ fn no_query_raises_invalid_division_by_zero_or_overflow() {
         let mut unit = || (random.next_u64() >> 11) as f64 / (1u64 << 53) as f64;
         let scale = [1e-30, 1e-6, 0.1, 1.0, 1e25][(5.0 * unit()) as usize];
         let mut signed = |size: f64| size * (2.0 * unit() - 1.0);
-        let known = Known {
+        let known = InitialData {
             porosity: 0.5 + signed(0.5),
             fabric_index: signed(1.0),
             fabric_xy: signed(1.0),
             reduced_stress: (query % 3 > 0).then(|| [signed(scale), signed(scale), signed(scale)]),
             conductivity: (query % 2 > 0).then(|| [signed(scale).abs(), signed(scale).abs(), signed(scale)]),
         };
-        let known = if query % 7 == 0 { Known { reduced_stress: Some([0.0; 3]), ..known } } else { known };
+        let known =
+            if query % 7 == 0 { InitialData { reduced_stress: Some([0.0; 3]), ..known } } else { known };
         let _ = raised();
         let state = models[query / 2 % 3].initial_state(&known);
         assert_eq!(raised(), 0, "start {known:?}");
@@ -207,9 +208,13 @@ fn a_turn_by_90_degrees_turns_the_answer_and_zero_strain_changes_nothing() {
 fn a_cell_that_only_turns_keeps_its_stress_along_the_grains() {
     let model = shipped();
     let stress = [0.07, 0.05, 0.004];
-    let known =
-        Known { porosity: 0.12, fabric_index: 0.02, reduced_stress: Some(stress), ..Known::default() };
-    let known = Known { conductivity: Some([0.31, 0.27, 0.01]), ..known };
+    let known = InitialData {
+        porosity: 0.12,
+        fabric_index: 0.02,
+        reduced_stress: Some(stress),
+        ..InitialData::default()
+    };
+    let known = InitialData { conductivity: Some([0.31, 0.27, 0.01]), ..known };
     let start = model.initial_state(&known);
     let angle: f64 = 1e-2;
     let strain = Increment { rotation: [angle; LANES], ..Increment::default() };
@@ -279,7 +284,8 @@ fn every_instruction_set_and_every_place_in_any_batch_gives_the_same_bits() {
 #[test]
 fn contraction_ends_without_stress_and_expansion_brings_it_back() {
     let model = shipped();
-    let start = model.initial_state(&Known { porosity: 0.16, fabric_index: 0.02, ..Known::default() });
+    let start =
+        model.initial_state(&InitialData { porosity: 0.16, fabric_index: 0.02, ..InitialData::default() });
     assert!(model.evaluate(&start, 0.0).stress[0][0] > 0.0);
     let run = |mut state: [f64; MAX_STATE], strain: f64, count: usize| {
         let mut answer = model.evaluate(&state, strain);
@@ -300,7 +306,7 @@ fn contraction_ends_without_stress_and_expansion_brings_it_back() {
 #[test]
 fn cycles_come_to_an_end() {
     let model = shipped();
-    let known = Known { porosity: 0.1215, fabric_index: 0.0498, ..Known::default() };
+    let known = InitialData { porosity: 0.1215, fabric_index: 0.0498, ..InitialData::default() };
     let mut state = model.initial_state(&known).map(|value| [value; LANES]);
     let mut ends = Vec::new();
     let count = 20;
@@ -324,7 +330,7 @@ fn cycles_come_to_an_end() {
 #[test]
 fn what_is_known_of_the_start_is_kept_and_the_rest_is_the_mean() {
     let model = trained(10, 3, 1);
-    let known = Known {
+    let known = InitialData {
         porosity: 0.12,
         fabric_index: 0.01,
         fabric_xy: -0.004,
@@ -340,14 +346,16 @@ fn what_is_known_of_the_start_is_kept_and_the_rest_is_the_mean() {
     };
     near(answer.stress, known.reduced_stress);
     near(answer.conductivity, known.conductivity);
-    let mean = model.initial_state(&Known { porosity: 0.12, fabric_index: 0.01, ..Known::default() });
+    let mean =
+        model.initial_state(&InitialData { porosity: 0.12, fabric_index: 0.01, ..InitialData::default() });
     let [xx, yy, _] = model.evaluate(&mean, 0.0).stress.map(|column| column[0]);
     let law = 0.1 * 0.08 / 0.12; // of the synthetic packings
     assert!((0.5 * (xx + yy) - law).abs() < 0.05 * law, "{xx} {yy}");
-    let doubt = model.doubt(&state).expect("the model knows its region");
-    assert!(doubt.distance.is_finite() && doubt.conductivity_spread >= 0.0);
-    let far_known = Known { porosity: 0.5, reduced_stress: Some([0.5, 0.5, 0.0]), ..Known::default() };
-    let far = model.doubt(&model.initial_state(&far_known)).expect("the model knows its region");
+    let uncertainty = model.uncertainty(&state).expect("the model knows its region");
+    assert!(uncertainty.distance.is_finite() && uncertainty.conductivity_spread >= 0.0);
+    let far_known =
+        InitialData { porosity: 0.5, reduced_stress: Some([0.5, 0.5, 0.0]), ..InitialData::default() };
+    let far = model.uncertainty(&model.initial_state(&far_known)).expect("the model knows its region");
     assert!(far.beyond_hull > 1.0 && far.distance > 3.0, "{far:?}");
 }
 
@@ -360,7 +368,7 @@ fn the_law_that_made_the_paths_is_found_again() {
         assert!(errors.conductivity < 0.02 && errors.porosity < 1e-3, "{errors:?}");
     }
     let affine = model.answering_with(ConductivityKind::Affine).expect("both kinds are there");
-    let state = model.initial_state(&Known { porosity: 0.12, ..Known::default() });
+    let state = model.initial_state(&InitialData { porosity: 0.12, ..InitialData::default() });
     let ratio =
         affine.evaluate(&state, 0.0).conductivity[0][0] / model.evaluate(&state, 0.0).conductivity[0][0];
     assert!((ratio - 1.1).abs() < 0.01, "{ratio}");

@@ -9,12 +9,12 @@ use crate::tracks::{Point, Track};
 /// Largest strain that is applied in one part.
 const PART: f64 = 1e-3;
 /// Largest number of parts of a step.
-const MOST_PARTS: f64 = 20.0;
+const MAX_PARTS: f64 = 20.0;
 
 /// Number of parts in which the largest of these strains is applied.
 pub(super) fn parts(strains: impl IntoIterator<Item = f64>) -> f64 {
     let largest = strains.into_iter().fold(0.0f64, |a, b| a.max(b.abs()));
-    (largest / PART).ceil().clamp(1.0, MOST_PARTS)
+    (largest / PART).ceil().clamp(1.0, MAX_PARTS)
 }
 
 /// The law's states of one track: number k as `Step::from`.

@@ -8,7 +8,7 @@ use crate::document::field;
 use crate::kernel::vector::{Arithmetic, Portable};
 use serde::{Deserialize, Serialize};
 
-/// Overlaps and fabric. s = √p̃, r² = (q̃/p̃)², z as in [`super::law`], porosity x above `USUAL_POROSITY`.
+/// Overlaps and fabric. s = √p̃, r² = (q̃/p̃)², z as in [`super::law`], porosity x above `REFERENCE_POROSITY`.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Readout {
@@ -35,7 +35,7 @@ pub const PRESSURE_FLOOR: f64 = 1e-4;
 /// K/k of a state without stress: far below that of any packing (at least 0.05), but positive, as the heat equation needs.
 pub const CONDUCTIVITY_FLOOR: f64 = 1e-4;
 /// Least K/(k s): a fifth of that of the loosest packings.
-const LEAST_CONDUCTIVITY: f64 = 0.1;
+const MIN_CONDUCTIVITY: f64 = 0.1;
 /// Largest length of (K_xx − K_yy, 2 K_xy)/(K_xx + K_yy), so that the conductivity is positive in every direction.
 const LARGEST_ANISOTROPY: f64 = 0.9;
 
@@ -96,18 +96,18 @@ impl<V: Arithmetic> Features<V> {
 #[inline(always)]
 pub fn conductivity_row<V: Arithmetic>(features: &Features<V>, porosity: V) -> [V; 11] {
     let Features { pressure: p, root: s, square: r, .. } = *features;
-    let x = porosity - V::all(USUAL_POROSITY);
+    let x = porosity - V::all(REFERENCE_POROSITY);
     [V::all(1.0), s, p, r, s * r, x, x * s, x * p, x * r, x * x, s * (x * x)]
 }
 
 /// Porosity from which that of the packings is measured [-].
-const USUAL_POROSITY: f64 = 0.12;
+const REFERENCE_POROSITY: f64 = 0.12;
 
 /// Terms of the fabric, see [`Readout::fabric`], for each component.
 #[inline(always)]
 pub fn fabric_rows<V: Arithmetic>(features: &Features<V>, porosity: V) -> [[V; 4]; 2] {
     let Features { root, loose, ratio: [along, across], .. } = *features;
-    let x = porosity - V::all(USUAL_POROSITY);
+    let x = porosity - V::all(REFERENCE_POROSITY);
     [[along, along * x, along * root, along * loose], [across, across * x, across * root, across * loose]]
 }
 
@@ -115,7 +115,7 @@ pub fn fabric_rows<V: Arithmetic>(features: &Features<V>, porosity: V) -> [[V; 4
 #[inline(always)]
 pub fn direction_rows<V: Arithmetic>(features: &Features<V>, porosity: V, fabric: [V; 2]) -> [[V; 3]; 2] {
     let [along, across] = features.ratio;
-    let x = porosity - V::all(USUAL_POROSITY);
+    let x = porosity - V::all(REFERENCE_POROSITY);
     [[along, along * x, fabric[0]], [across, across * x, fabric[1]]]
 }
 
@@ -166,7 +166,7 @@ impl Conductivity {
         fabric: [V; 2],
         (own, direction): (V, [V; 2]),
     ) -> [V; 3] {
-        let share = sum(conductivity_row(x, porosity), self.mean).at_least(V::all(LEAST_CONDUCTIVITY));
+        let share = sum(conductivity_row(x, porosity), self.mean).at_least(V::all(MIN_CONDUCTIVITY));
         let mean = (x.root * share).fused(V::all(1.0) + own, V::all(CONDUCTIVITY_FLOOR));
         let rows = direction_rows(x, porosity, fabric);
         let along = sum(rows[0], self.direction) + direction[0];

@@ -7,7 +7,7 @@ use crate::kernel::vector::{Arithmetic, Portable};
 
 /// The elastic state.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Start {
+pub struct ElasticState {
     pub jamming: f64,
     pub compression: f64,
     pub shear: [[f64; 2]; ELEMENTS],
@@ -21,9 +21,9 @@ const ROUNDING: f64 = 1e-14;
 /// Largest number of rounds in which φ_s and v, which depend on each other by the overlaps, are found.
 const ROUNDS: usize = 20;
 /// Largest factor of the strengths: grains that bear twice as much are not known.
-const MOST_STRENGTH: f64 = 2.0;
+const MAX_STRENGTH: f64 = 2.0;
 /// Far below all pressures, and such that no quotient overflows.
-const LEAST_PRESSURE: f64 = 1e-100;
+const MIN_PRESSURE: f64 = 1e-100;
 /// Largest v that is looked for.
 const LARGEST: f64 = 0.6;
 
@@ -41,7 +41,7 @@ fn number(cell: Cell) -> f64 {
 }
 
 /// The state with porosity η, pressure p̃ and deviator (q̃₁, q̃₂).
-pub fn start(law: &Law, readout: &Readout, porosity: f64, pressure: f64, deviator: [f64; 2]) -> Start {
+pub fn start(law: &Law, readout: &Readout, porosity: f64, pressure: f64, deviator: [f64; 2]) -> ElasticState {
     let mut solid = 1.0 - porosity;
     for _ in 0..ROUNDS {
         let (state, stress) = loaded(law, solid, pressure, deviator);
@@ -63,9 +63,9 @@ pub fn start(law: &Law, readout: &Readout, porosity: f64, pressure: f64, deviato
 /// The state with the solid fraction φ_s, pressure p̃ and deviator (q̃₁, q̃₂). The elements share the deviator as after a
 /// proportional load from zero: each bears its part of the shear strain until it slides. A packing that bears a deviator larger
 /// than all strengths has larger strengths, by a common factor.
-pub fn start_of_solid(law: &Law, solid: f64, pressure: f64, deviator: [f64; 2]) -> Start {
+pub fn start_of_solid(law: &Law, solid: f64, pressure: f64, deviator: [f64; 2]) -> ElasticState {
     let (state, _) = loaded(law, solid, pressure, deviator);
-    Start {
+    ElasticState {
         jamming: number(state.jamming),
         compression: number(state.compression),
         shear: state.shear.map(|shear| shear.map(number)),
@@ -106,8 +106,8 @@ fn at(law: &Law, solid: f64, compression: f64, size: f64, direction: [f64; 2]) -
         Elastic { jamming, compression: v, shear: [[cell(0.0); 2]; ELEMENTS], strength: cell(1.0) };
     let moduli = law.moduli(v, unsheared.looseness());
     let (ratio, pressure) = (number(moduli.ratio), number(moduli.pressure));
-    let load = size / (law.strength() * pressure.max(LEAST_PRESSURE));
-    let strength = if pressure > 0.0 { load.clamp(1.0, law.most_strength().min(MOST_STRENGTH)) } else { 1.0 };
+    let load = size / (law.strength() * pressure.max(MIN_PRESSURE));
+    let strength = if pressure > 0.0 { load.clamp(1.0, law.most_strength().min(MAX_STRENGTH)) } else { 1.0 };
     let limits = law.elements.map(|element| strength * element.strength / (element.share * ratio));
     let common = shared(law, limits, ratio * pressure, size);
     let shear = limits.map(|limit| direction.map(|d| cell(d * common.min(limit))));
@@ -119,7 +119,7 @@ fn at(law: &Law, solid: f64, compression: f64, size: f64, direction: [f64; 2]) -
 fn shared(law: &Law, limits: [f64; ELEMENTS], stiffness: f64, size: f64) -> f64 {
     let mut order: [usize; ELEMENTS] = std::array::from_fn(|k| k);
     order.sort_by(|a, b| limits[*a].total_cmp(&limits[*b]));
-    let mut rest = size / stiffness.max(LEAST_PRESSURE);
+    let mut rest = size / stiffness.max(MIN_PRESSURE);
     let mut shares: f64 = law.elements.iter().map(|element| element.share).sum();
     let mut common = 0.0;
     for k in order {

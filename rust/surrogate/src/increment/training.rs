@@ -18,7 +18,7 @@ use crate::wall_friction::WallFriction;
 use std::collections::BTreeSet;
 
 /// Usual number of epochs, after which the fit is at its minimum for all practical purposes.
-pub const USUAL_EPOCHS: u32 = 60;
+pub const DEFAULT_EPOCHS: u32 = 60;
 
 /// Trains on paths of periodic boxes; wall friction is fitted when the data for it is there.
 ///
@@ -29,7 +29,7 @@ pub fn train(data: &TrainingData, options: &TrainingOptions) -> Result<Increment
     let held_out = data.split(options.seed)?.test;
     let (unseen, seen): (Vec<Track>, Vec<Track>) =
         data.tracks.iter().cloned().partition(|track| held_out.contains(&track.packing));
-    if seen.iter().map(|track| track.steps.len()).sum::<usize>() < LEAST_STEPS {
+    if seen.iter().map(|track| track.steps.len()).sum::<usize>() < MIN_STEPS {
         let text = "fewer than 100 states of periodic boxes, to which this kind of model is fitted";
         return Err(SurrogateError::Data(text.to_string()));
     }
@@ -41,7 +41,7 @@ pub fn train(data: &TrainingData, options: &TrainingOptions) -> Result<Increment
     let packed: Vec<Point> = seen.iter().map(|track| track.packed).collect();
     let core = Core { readout, conductivity: conductivities[0].clone(), ..Core::of(law) };
     let ranges = ranges(&seen, &states);
-    let judged: &[Track] = if unseen.len() < LEAST_TRACKS { &seen } else { &unseen };
+    let judged: &[Track] = if unseen.len() < MIN_TRACKS { &seen } else { &unseen };
     let report = Report {
         packings: [packings(&seen), packings(&unseen)],
         paths: [seen.len(), unseen.len()],
@@ -78,8 +78,8 @@ fn model_text(model: &IncrementModel) -> String {
 }
 
 /// Least number of states to which the law is fitted, and of paths by which its spread is judged.
-const LEAST_STEPS: usize = 100;
-const LEAST_TRACKS: usize = 20;
+const MIN_STEPS: usize = 100;
+const MIN_TRACKS: usize = 20;
 
 fn packings(tracks: &[Track]) -> usize {
     tracks.iter().map(|track| track.packing).collect::<BTreeSet<_>>().len()
@@ -154,7 +154,7 @@ fn spread(core: &Core, ranges: &Ranges, tracks: &[Track]) -> Spread {
             track.steps.iter().enumerate().filter(|(_, step)| step.to.load_bearing && !step.probe)
         {
             let (before, after) = (track.point(step.from).invariants()[0], step.to.invariants()[0]);
-            if step.strain[0].abs() > LEAST_STRAIN {
+            if step.strain[0].abs() > MIN_STRAIN {
                 let error = (found[k + 1][0] - found[step.from][0]) - (after - before);
                 rate.push((before, error / step.strain[0]));
             }
@@ -168,4 +168,4 @@ fn spread(core: &Core, ranges: &Ranges, tracks: &[Track]) -> Spread {
 }
 
 /// Smallest thermal strain of a step from which a rate is taken.
-const LEAST_STRAIN: f64 = 1e-4;
+const MIN_STRAIN: f64 = 1e-4;

@@ -37,13 +37,13 @@ fn series<V: Vector>(r: V) -> V {
 }
 
 /// The largest size of an exponent of [`exp`].
-const MOST_EXPONENT: f64 = 700.0;
+const MAX_EXPONENT: f64 = 700.0;
 
 /// e^x in two parts, with |x| at most 700: 2^n, and e^r − 1 with e^x = 2^n e^r and |r| <= ln 2 / 2. It has no fused operations, which
 /// a processor may lack, since single numbers need it, too.
 #[inline(always)]
 fn power_of_two_and_rest<V: Arithmetic>(x: V) -> (V, V) {
-    let x = x.within(V::all(-MOST_EXPONENT), V::all(MOST_EXPONENT));
+    let x = x.within(V::all(-MAX_EXPONENT), V::all(MAX_EXPONENT));
     let rounded = x * V::all(std::f64::consts::LOG2_E) + V::all(ROUNDER);
     let n = rounded - V::all(ROUNDER);
     let r = (x - n * V::all(LN2_HIGH)) - n * V::all(LN2_LOW);

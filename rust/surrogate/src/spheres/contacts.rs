@@ -12,7 +12,7 @@
 //! as in beds that were poured: these have more contacts than boxes because grains without load rest on others, and keep them.
 
 use super::number::Number;
-use super::state::{LEAST_COMPRESSION, State};
+use super::state::{MIN_COMPRESSION, State};
 use super::tensor::{Tensor, contraction, deviator};
 use serde::{Deserialize, Serialize};
 
@@ -33,21 +33,21 @@ pub struct Contacts {
 /// The elastic compression at which packings have the most contacts beyond z̄.
 const LEVEL: f64 = 5e-3;
 /// Added to h before a ratio of two is taken.
-const LEAST_SHARE: f64 = 1e-3;
+const MIN_SHARE: f64 = 1e-3;
 /// The part of the friction that is not mobilised below which a packing keeps ζ.
 const KEEPING: f64 = 0.25;
 /// How sharply: the power 16, by so many squares.
 const SHARPLY: u32 = 4;
 /// Least part of which that power is taken.
-const LEAST_FREE: f64 = 1e-3;
+const MIN_FREE: f64 = 1e-3;
 /// Largest exponent with which shear makes ζ forgotten in one part of a strain.
-const MOST_EXPONENT: f64 = 8.0;
+const MAX_EXPONENT: f64 = 8.0;
 /// Compression below which packings have fewer contacts the less they are compressed.
 pub(super) const HARDLY: f64 = 1.5e-4;
 /// Largest S.
-pub(super) const MOST_SURPLUS: f64 = 10.0;
+pub(super) const MAX_SURPLUS: f64 = 10.0;
 /// Most contacts per sphere of grains that only rest on others: as many as beds that were poured with little friction have.
-const MOST_RESTING: f64 = 0.6;
+const MAX_RESTING: f64 = 0.6;
 /// Bounds of z: none has more than equal spheres of the densest packings.
 const CONTACTS: [f64; 2] = [0.0, 12.0];
 /// Added to squares of lengths before their root is taken, so that its derivative exists.
@@ -56,7 +56,7 @@ const TINY: f64 = 1e-30;
 /// 1, s, v, x, x s, o, with s = √v and o = 1/(1 + v/1.5e-4), of the elastic compression v and x = φ_J − 0.6.
 #[inline(always)]
 pub fn row<N: Number>(state: &State<N>) -> [N; COEFFICIENTS] {
-    let (v, x) = (state.compression.not_below(LEAST_COMPRESSION), state.density());
+    let (v, x) = (state.compression.not_below(MIN_COMPRESSION), state.density());
     let s = v.root();
     [N::constant(1.0), s, v, x, x * s, v.times(1.0 / HARDLY).plus(1.0).inverse()]
 }
@@ -72,7 +72,7 @@ fn share<N: Number>(compression: N) -> N {
 /// F, with the part of the friction that is not mobilised.
 #[inline(always)]
 fn forgets<N: Number>(free: N) -> N {
-    let mut power = free.not_below(LEAST_FREE).inverse().times(KEEPING);
+    let mut power = free.not_below(MIN_FREE).inverse().times(KEEPING);
     for _ in 0..SHARPLY {
         power = power.squared();
     }
@@ -93,7 +93,7 @@ impl<N: Number> Usual<N> {
     #[inline(always)]
     pub fn resting(&self, coordination: N) -> N {
         let kept = self.forgets.times(-1.0).plus(1.0) * (coordination - self.contacts);
-        kept.not_below(0.0).not_above(MOST_RESTING)
+        kept.not_below(0.0).not_above(MAX_RESTING)
     }
 
     /// The others, which bear load, and by which the fabric turns.
@@ -145,15 +145,15 @@ impl Contacts {
     #[inline(always)]
     pub fn shares<N: Number>(&self, [from, to]: [&State<N>; 2], forgets: N, strain: &Tensor<N>) -> [N; 2] {
         let [of_compression, of_shear] = self.fading;
-        let before = from.compression.not_below(LEAST_COMPRESSION);
-        let after = to.compression.not_below(LEAST_COMPRESSION);
+        let before = from.compression.not_below(MIN_COMPRESSION);
+        let after = to.compression.not_below(MIN_COMPRESSION);
         let free = from.free();
         let distortion = deviator(*strain);
         let length = contraction(&distortion, &distortion).plus(TINY).root() * after.inverse();
-        let sheared = length.times(-of_shear).not_below(-MOST_EXPONENT);
+        let sheared = length.times(-of_shear).not_below(-MAX_EXPONENT);
         let [had, has] = [share(before), share(after)];
         let keeps = forgets.times(-1.0).plus(1.0);
-        let opened = (has.plus(LEAST_SHARE) * had.plus(LEAST_SHARE).inverse()).ln();
+        let opened = (has.plus(MIN_SHARE) * had.plus(MIN_SHARE).inverse()).ln();
         let closed = (after * before.inverse()).ln();
         let faded = N::constant(0.0)
             - closed.where_above(N::constant(0.0), closed, closed.times(-1.0)).times(of_compression);
@@ -168,7 +168,7 @@ impl Contacts {
         let large = |value: f64| ("contacts.sheared", value, value.abs() <= 1e6, "-1e6 to 1e6");
         let sheared = self.sheared.into_iter().map(large);
         let surplus =
-            ("contacts.surplus", self.surplus, (0.0..=MOST_SURPLUS).contains(&self.surplus), "0 to 10");
+            ("contacts.surplus", self.surplus, (0.0..=MAX_SURPLUS).contains(&self.surplus), "0 to 10");
         let fading = |value: f64| ("contacts.fading", value, (0.0..=100.0).contains(&value), "0 to 100");
         sheared.chain([surplus]).chain(self.fading.into_iter().map(fading))
     }

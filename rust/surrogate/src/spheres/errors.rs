@@ -59,4 +59,4 @@ impl Sums {
 }
 
 /// Least p/E* of states whose conductivity is judged.
-pub const LEAST_PRESSURE: f64 = 1e-7;
+pub const MIN_PRESSURE: f64 = 1e-7;

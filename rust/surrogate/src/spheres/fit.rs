@@ -17,7 +17,7 @@ const MOST: [f64; 2] = [5.0, 3.0];
 /// Relative step of the numerical derivatives.
 const STEP: f64 = 1e-4;
 /// Number of spheres of a packing whose errors have the weight 1; that of others goes with the root of their number.
-const USUAL_SPHERES: f64 = 1000.0;
+const DEFAULT_SPHERES: f64 = 1000.0;
 
 /// Residuals of paths that turn more often than this count by this factor: there are few of them, and a law that is a little off in
 /// each cycle is far off after ten.
@@ -33,7 +33,7 @@ const OF_ONE_KIND: f64 = 2.5;
 const SHARE_OF_LARGEST: f64 = 0.1;
 const SHARE_OF_STRAIN: f64 = 0.2;
 /// p/E* over v^(3/2) of usual packings.
-const USUAL_BULK: f64 = 0.075;
+const REFERENCE_BULK: f64 = 0.075;
 
 /// Over what the stress of each state after a step counts.
 pub fn scales(track: &Track) -> Vec<f64> {
@@ -52,7 +52,7 @@ pub fn scales(track: &Track) -> Vec<f64> {
         farthest = farthest.max(contraction(&distortion, &distortion).sqrt() + 3.0 * mean(strain).abs());
         let pressure = mean(step.to.stress);
         largest = largest.max(pressure);
-        let built_up = USUAL_BULK * libm::pow(SHARE_OF_STRAIN * farthest, 1.5);
+        let built_up = REFERENCE_BULK * libm::pow(SHARE_OF_STRAIN * farthest, 1.5);
         pressure.max(packed).max(SHARE_OF_LARGEST * largest).max(built_up)
     });
     each.collect()
@@ -62,11 +62,11 @@ pub fn scales(track: &Track) -> Vec<f64> {
 /// would take any value that fits the stress.
 const OF_FABRIC: f64 = 0.3;
 /// Usual stress ratio over the deviator of the fabric: it turns errors of the fabric into errors of a stress ratio.
-const USUAL_RATIO: f64 = 5.0;
+const REFERENCE_RATIO: f64 = 5.0;
 /// Least such number by which is divided.
-const LEAST_RATIO: f64 = 0.1;
+const MIN_RATIO: f64 = 0.1;
 /// Least p/E* of states whose fabric counts.
-const LEAST_PRESSURE: f64 = 3e-9;
+const MIN_PRESSURE: f64 = 3e-9;
 
 /// Residuals of the stress and the fabric along tracks.
 pub struct PathFit<'a> {
@@ -88,7 +88,7 @@ impl PathFit<'_> {
                 "shear" | "thermal" | "isotropic" => OF_ONE_KIND,
                 _ => 1.0,
             };
-            let weight = of_cycles * of_kind * track.weight * (track.spheres as f64 / USUAL_SPHERES).sqrt();
+            let weight = of_cycles * of_kind * track.weight * (track.spheres as f64 / DEFAULT_SPHERES).sqrt();
             let states = follow(&law, track);
             for ((step, state), scale) in track.steps.iter().zip(&states[1..]).zip(scales(track)) {
                 let (found, data) = (law.stress(state), step.to.stress);
@@ -102,10 +102,10 @@ impl PathFit<'_> {
                     (0..6)
                         .map(|k| (both(k) * weight * (found[k] - data[k]) / scale).clamp(-MOST[1], MOST[1])),
                 );
-                let bears = mean(step.to.stress) > LEAST_PRESSURE;
-                let weight = if bears { OF_FABRIC * USUAL_RATIO * weight } else { 0.0 };
+                let bears = mean(step.to.stress) > MIN_PRESSURE;
+                let weight = if bears { OF_FABRIC * REFERENCE_RATIO * weight } else { 0.0 };
                 let (fabric, known) = (state.ratios[FABRIC], deviator(step.to.fabric));
-                let per_anisotropy = law.fabric[0].max(LEAST_RATIO);
+                let per_anisotropy = law.fabric[0].max(MIN_RATIO);
                 residuals.extend((0..6).map(|k| {
                     (both(k) * weight * (fabric[k] / per_anisotropy - known[k])).clamp(-MOST[1], MOST[1])
                 }));

@@ -1,6 +1,6 @@
 //! Fit of what depends on the state of the law: usual fabric, number of contacts, conductivities.
 
-use super::contacts::{COEFFICIENTS, Contacts, MOST_SURPLUS, row};
+use super::contacts::{COEFFICIENTS, Contacts, MAX_SURPLUS, row};
 use super::law::Law;
 use super::readout::{Readout, contact_row, directions, gas_row, relative};
 use super::state::{FABRIC, State};
@@ -9,7 +9,7 @@ use super::tracks::{Point, Track};
 use crate::least_squares;
 
 /// Least p/E* of states to which is fitted, less than that of a bed under its own weight.
-const LEAST_PRESSURE: f64 = 3e-9;
+const MIN_PRESSURE: f64 = 3e-9;
 /// Numbers of [`Contacts::fading`] that are tried.
 const OF_COMPRESSION: [f64; 6] = [0.0, 0.2, 0.3, 0.4, 0.5, 0.7];
 const OF_SHEAR: [f64; 7] = [0.2, 0.4, 0.5, 0.6, 0.8, 1.2, 2.0];
@@ -52,7 +52,7 @@ fn contacts_that_fade(tracks: &[(&Track, Vec<State>)], fading: [f64; 2]) -> (Con
             let [of_packing, since] = all[step.from];
             let [left, more] = [left * of_packing, left * since + more];
             all.push([left, more]);
-            if mean(step.to.stress) < LEAST_PRESSURE || to.compression <= 0.0 {
+            if mean(step.to.stress) < MIN_PRESSURE || to.compression <= 0.0 {
                 continue;
             }
             let row = row(to);
@@ -69,7 +69,7 @@ fn contacts_that_fade(tracks: &[(&Track, Vec<State>)], fading: [f64; 2]) -> (Con
         weight * (sum - z) * (sum - z)
     };
     contacts.sheared = std::array::from_fn(|k| found[k]);
-    contacts.surplus = found[COEFFICIENTS].clamp(0.0, MOST_SURPLUS);
+    contacts.surplus = found[COEFFICIENTS].clamp(0.0, MAX_SURPLUS);
     (contacts, samples.iter().map(error).sum())
 }
 
@@ -80,7 +80,7 @@ pub fn readout(law: &Law, tracks: &[Track]) -> Readout {
     for track in tracks {
         for k in 0..=track.steps.len() {
             let point = track.point(k);
-            if mean(point.stress) >= LEAST_PRESSURE {
+            if mean(point.stress) >= MIN_PRESSURE {
                 all.push((point.state(law), point, track.weight.sqrt()));
             }
         }

@@ -3,7 +3,7 @@
 use super::components::six;
 use super::contacts::{Contacts, HARDLY, Usual};
 use super::number::Number;
-use super::state::{ELEMENTS, FABRIC, LEAST_COMPRESSION, State};
+use super::state::{ELEMENTS, FABRIC, MIN_COMPRESSION, State};
 use super::tensor::{Rotation, Tensor, contraction, deviator, scaled, square, sum, turned};
 use crate::kernel::elementary;
 use crate::kernel::vector::Arithmetic;
@@ -65,28 +65,28 @@ pub struct Element {
 }
 
 /// A usual elastic compression, over which u is counted.
-const USUAL_COMPRESSION: f64 = 0.005;
+const REFERENCE_COMPRESSION: f64 = 0.005;
 /// Largest v: far beyond the elasticity of real grains.
-pub(super) const MOST_COMPRESSION: f64 = 0.5;
+pub(super) const MAX_COMPRESSION: f64 = 0.5;
 /// Largest work of grains that climb over that of friction.
-const MOST_CLIMBING: f64 = 0.9;
+const MAX_CLIMBING: f64 = 0.9;
 /// Length of a stress ratio over its strength from which an element slides: so little above 1 that a state which slides
 /// stays as it is when it is evaluated again.
 const SLACK: f64 = 1.0 + 1e-9;
 /// Added to squares of lengths before their root is taken, so that its derivative exists.
 const TINY: f64 = 1e-30;
 /// Largest factor of the strengths of friction.
-pub(super) const MOST_OF_FRICTION: f64 = 2.0;
+pub(super) const MAX_OF_FRICTION: f64 = 2.0;
 /// Largest [`State::strength`]: there friction is twice as strong as it usually is, and the fabric four times.
-pub const MOST_STRENGTH: f64 = 8.0;
+pub const MAX_STRENGTH: f64 = 8.0;
 /// Least part of mobilised friction of which a power is taken.
-const LEAST_MOBILISED: f64 = 1e-6;
+const MIN_MOBILISED: f64 = 1e-6;
 /// Added to v where sliding is counted over it.
 const SOFT: f64 = 5e-5;
 /// Contacts per sphere over which the fabric's stiffness goes from none to its slope.
 const ROUNDING: f64 = 0.2;
 /// Largest exponent of the exponential functions of x.
-const MOST_EXPONENT: f64 = 8.0;
+const MAX_EXPONENT: f64 = 8.0;
 
 /// Strain of an increment: growth of the radii positive, extension of the cell positive; xy, xz, yz are twice the shears.
 #[derive(Clone, Copy, Debug)]
@@ -98,14 +98,14 @@ pub struct Strain<N: Number = f64> {
 impl Law {
     #[inline(always)]
     fn exponential<N: Number>(x: N, rate: f64) -> N {
-        x.times(rate).not_below(-MOST_EXPONENT).not_above(MOST_EXPONENT).exp()
+        x.times(rate).not_below(-MAX_EXPONENT).not_above(MAX_EXPONENT).exp()
     }
 
     /// v, and u, between bounds.
     #[inline(always)]
     pub(super) fn compressions<N: Number>(compression: N) -> (N, N) {
-        let v = compression.not_below(LEAST_COMPRESSION).not_above(MOST_COMPRESSION);
-        (v, v.times(1.0 / USUAL_COMPRESSION))
+        let v = compression.not_below(MIN_COMPRESSION).not_above(MAX_COMPRESSION);
+        (v, v.times(1.0 / REFERENCE_COMPRESSION))
     }
 
     /// A: the pressure over E* without shear.
@@ -126,7 +126,7 @@ impl Law {
     pub(super) fn stiffening<N: Number>(&self, x: N, free: N, loaded: N) -> N {
         let [of_density, power, of_free] = self.shear;
         let exponent =
-            (x.times(of_density) + free.times(of_free)).not_below(-MOST_EXPONENT).not_above(MOST_EXPONENT);
+            (x.times(of_density) + free.times(of_free)).not_below(-MAX_EXPONENT).not_above(MAX_EXPONENT);
         (exponent + loaded.times(power)).exp()
     }
 
@@ -150,14 +150,14 @@ impl Law {
     pub(super) fn strength<N: Number>(&self, k: usize, x: N, free: N, loaded: N) -> N {
         let Element { strength, growth, free: of_free, hardening, .. } = self.elements[k];
         let exponent = x.times(growth) + free.times(of_free) + loaded.not_above(0.0).times(0.5 * hardening);
-        exponent.not_below(-MOST_EXPONENT).not_above(MOST_EXPONENT).exp().times(strength)
+        exponent.not_below(-MAX_EXPONENT).not_above(MAX_EXPONENT).exp().times(strength)
     }
 
     /// The factor of an element's strength in a packing with this [`State::strength`]: friction is as strong as that, up to twice as
     /// strong as it usually is, and beyond that the fabric is stronger.
     #[inline(always)]
     pub(super) fn factor<V: Arithmetic>(k: usize, strength: V) -> V {
-        let most = V::all(MOST_OF_FRICTION);
+        let most = V::all(MAX_OF_FRICTION);
         if k == FABRIC { (strength / most).at_least(V::all(1.0)) } else { strength.at_most(most) }
     }
 
@@ -165,7 +165,7 @@ impl Law {
     #[inline(always)]
     pub fn stress<N: Number>(&self, state: &State<N>) -> Tensor<N> {
         let (x, free) = (state.density(), state.free());
-        let (least, zero) = (N::constant(LEAST_COMPRESSION), N::constant(0.0));
+        let (least, zero) = (N::constant(MIN_COMPRESSION), N::constant(0.0));
         let pressure = self.pressure(state.compression, x, free);
         let pressure = state.compression.where_above(least, pressure, zero);
         // The sums with zero make it 0, and not −0, where there is no pressure.
@@ -202,7 +202,7 @@ impl Law {
         let count = parts(state.compression.value(), strain.thermal, six!(k => strain.cell[k].value()));
         let share = N::Values::all(1.0) / count;
         let mut usual = self.contacts.usual(&next);
-        for number in 0..MOST_PARTS {
+        for number in 0..MAX_PARTS {
             // Cells whose parts are fewer stay as they are.
             let number = N::Values::all(f64::from(number));
             if !count.any_greater(number) {
@@ -230,8 +230,8 @@ impl Law {
     fn lost<N: Number>(&self, state: &State<N>, loaded: N, (along, length): (&Tensor<N>, N)) -> N {
         let (x, free) = (state.density(), state.free());
         let [c0, c1, c2, c3] = self.collapse;
-        let bound = free.times(-1.0).plus(1.0).not_below(LEAST_MOBILISED);
-        let dense = x.times(-c1).not_below(-MOST_EXPONENT).not_above(MOST_EXPONENT);
+        let bound = free.times(-1.0).plus(1.0).not_below(MIN_MOBILISED);
+        let dense = x.times(-c1).not_below(-MAX_EXPONENT).not_above(MAX_EXPONENT);
         let collapse = (dense - loaded.times(c2) + bound.ln().times(c3)).exp().times(c0);
         let [d0, d1, d2, d3, d4] = self.dilatancy;
         let always = (x.times(d1) + free.times(d2)).plus(d0) + collapse;
@@ -258,8 +258,8 @@ impl Law {
         let denser = cell.times(-1.0).plus_values(grains) * cell.plus(1.0).inverse();
         let tried = state.compression + state.compression.plus(1.0) * denser;
         let (x, free) = (state.density(), state.free());
-        let before = state.compression.not_below(LEAST_COMPRESSION);
-        let after = tried.not_below(LEAST_COMPRESSION);
+        let before = state.compression.not_below(MIN_COMPRESSION);
+        let after = tried.not_below(MIN_COMPRESSION);
         let over = after.inverse();
         let opening = after * before.inverse();
         let distortion = deviator(strain);
@@ -293,7 +293,7 @@ impl Law {
                 loss = slid * self.lost(state, loaded, (&elastic, length));
             }
         }
-        loss = loss.not_below_number(work.times(-MOST_CLIMBING));
+        loss = loss.not_below_number(work.times(-MAX_CLIMBING));
         // What the stress of the fabric does is stored in the compression.
         let middle = sum(&state.ratios[FABRIC], &ratios[FABRIC]);
         loss = loss + contraction(&middle, &distortion).times(0.5);
@@ -305,12 +305,12 @@ impl Law {
         let loss = (loss + state.compression.where_above(tried, settled, zero)).not_above_number(tried);
         let compression = tried - loss;
         // Contacts keep their directions where grains give way.
-        let kept = (compression.not_below(LEAST_COMPRESSION) * before.inverse()).ln();
+        let kept = (compression.not_below(MIN_COMPRESSION) * before.inverse()).ln();
         ratios[FABRIC] = scaled(&ratios[FABRIC], kept.times(self.elements[FABRIC].power).exp());
         let jamming = state.jamming + state.jamming * loss * compression.plus(1.0).inverse();
         // Where packings are about to lose their load, v is small beside any sliding.
         let soft = after.plus(SOFT).inverse();
-        let left = free * (sliding * soft).times(-self.mobilising).not_below(-MOST_EXPONENT).exp();
+        let left = free * (sliding * soft).times(-self.mobilising).not_below(-MAX_EXPONENT).exp();
         let mobilised = left.times(-1.0).plus(1.0);
         // Strengths are those of the state that is reached, if it is weaker: else the next strain, however small, would change the
         // stress.
@@ -362,14 +362,14 @@ fn reoriented<N: Number>(
     let size = contraction(distortion, distortion).plus(TINY).root();
     let near = (contraction(ratio, distortion) * (size * most).inverse()).times(-1.0).not_below(0.0);
     let forgets = (near * near).times(1.0 - always).plus(always);
-    let rate = (stiffness * size * forgets * over).not_above(MOST_RATE);
+    let rate = (stiffness * size * forgets * over).not_above(MAX_RATE);
     let (value, one) = (rate.value(), N::Values::all(1.0));
     let gone = elementary::exp_less_one(N::Values::zero() - value);
     let left = one + gone;
     let kept = rate.chain(left, N::Values::zero() - left);
     // (1 − e^(−rate))/rate.
-    let least = N::constant(LEAST_RATE);
-    let ratio_of_gone = rate.chain(N::Values::zero() - gone, left) * rate.not_below(LEAST_RATE).inverse();
+    let least = N::constant(MIN_RATE);
+    let ratio_of_gone = rate.chain(N::Values::zero() - gone, left) * rate.not_below(MIN_RATE).inverse();
     let share = rate.where_above(least, ratio_of_gone, rate.times(-0.5).plus(1.0));
     let added = share * stiffness;
     let reached: Tensor<N> = six!(c => ratio[c] * kept - distortion[c] * added);
@@ -379,23 +379,23 @@ fn reoriented<N: Number>(
 }
 
 /// The exponent with which the fabric forgets in one part counts to the first order below this.
-const LEAST_RATE: f64 = 1e-6;
+const MIN_RATE: f64 = 1e-6;
 /// The largest such exponent: it forgets all.
-const MOST_RATE: f64 = 30.0;
+const MAX_RATE: f64 = 30.0;
 
-/// The size of a part of a strain over the elastic compression, at most; as long as there are not more than [`MOST_PARTS`].
+/// The size of a part of a strain over the elastic compression, at most; as long as there are not more than [`MAX_PARTS`].
 const PART: f64 = 0.1;
-const MOST_PARTS: u32 = 16;
+const MAX_PARTS: u32 = 16;
 
 /// Number of equal parts in which a strain is applied: the more, the larger what it strains the contacts is beside the elastic
 /// compression v, or the gap that is left where grains do not touch (v below 0), because stress and strengths follow from v.
 #[inline(always)]
 fn parts<V: Arithmetic>(compression: V, thermal: V, cell: Tensor<V>) -> V {
     let [xx, yy, zz, xy, xz, yz] = cell;
-    let (half, one, most) = (V::all(0.5), V::all(1.0), V::all(f64::from(MOST_PARTS)));
+    let (half, one, most) = (V::all(0.5), V::all(1.0), V::all(f64::from(MAX_PARTS)));
     let contacts = [xx - thermal, yy - thermal, zz - thermal, half * xy, half * xz, half * yz];
     let size = contraction(&contacts, &contacts).sqrt();
-    let v = compression.abs().at_least(V::all(LEAST_COMPRESSION));
+    let v = compression.abs().at_least(V::all(MIN_COMPRESSION));
     let needed = (size / (V::all(PART) * v)).at_most(most);
     // The next integer.
     let (half, rounder) = (V::all(0.5), V::all(ROUNDER));

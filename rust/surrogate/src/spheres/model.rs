@@ -4,7 +4,7 @@ use super::components::{six, three};
 use super::law::{Law, Strain};
 use super::number::{Differentiable, Dual, Number};
 use super::readout::Readout;
-use super::state::{ELEMENTS, Known, State};
+use super::state::{ELEMENTS, PackingData, State};
 use super::tensor::{Tensor, contraction, mean, rotation};
 use crate::SurrogateError;
 use crate::document::{field, hash, json, schema};
@@ -130,11 +130,11 @@ pub struct Increment {
 /// Beyond these, states and strains are taken at these ends, so that no input overflows. All are far from what grains do.
 const JAMMING: [f64; 2] = [0.3, 0.8];
 const COMPRESSION: [f64; 2] = [-0.9, 0.5];
-const STRENGTH: [f64; 2] = [0.01, super::law::MOST_STRENGTH];
+const STRENGTH: [f64; 2] = [0.01, super::law::MAX_STRENGTH];
 const MOBILISED: [f64; 2] = [0.0, 1.0];
 const COORDINATION: [f64; 2] = [0.0, 12.0];
-const MOST_RATIO: f64 = 2.0;
-const MOST_STRAIN: f64 = 0.2;
+const MAX_RATIO: f64 = 2.0;
+const MAX_STRAIN: f64 = 0.2;
 
 /// The states that the model takes, which are those that it answers: least and largest value of a column, and both as text. A packing of
 /// another state does not exist.
@@ -145,7 +145,7 @@ pub fn allowed(column: usize) -> ([f64; 2], &'static str) {
         2 => (STRENGTH, "0.01 to 8"),
         3 => (MOBILISED, "0 to 1"),
         4 => (COORDINATION, "0 to 12"),
-        _ => ([-MOST_RATIO, MOST_RATIO], "-2 to 2"),
+        _ => ([-MAX_RATIO, MAX_RATIO], "-2 to 2"),
     }
 }
 
@@ -185,11 +185,11 @@ pub fn state<V: Arithmetic + Number<Values = V>>(columns: &[V; COLUMNS]) -> Stat
     let mut ratios = [[V::zero(); 6]; ELEMENTS];
     for (k, ratio) in ratios.iter_mut().enumerate() {
         let first = SCALARS + 5 * k;
-        let xx = small(columns[first], MOST_RATIO);
-        let yy = small(columns[first + 1], MOST_RATIO);
-        let xy = small(columns[first + 2], MOST_RATIO);
-        let xz = small(columns[first + 3], MOST_RATIO);
-        let yz = small(columns[first + 4], MOST_RATIO);
+        let xx = small(columns[first], MAX_RATIO);
+        let yy = small(columns[first + 1], MAX_RATIO);
+        let xy = small(columns[first + 2], MAX_RATIO);
+        let xz = small(columns[first + 3], MAX_RATIO);
+        let yz = small(columns[first + 4], MAX_RATIO);
         *ratio = [xx, yy, V::zero() - xx - yy, xy, xz, yz];
     }
     State {
@@ -337,8 +337,11 @@ impl SphereModel {
     /// Refuses a model whose answers are far from those of any packing of spheres, as of a file with a digit changed.
     fn check_answers(&self) -> Result<(), SurrogateError> {
         for (solid, pressure) in [(0.58, 1e-6), (0.58, 1e-4), (0.62, 1e-6), (0.62, 1e-4)] {
-            let state =
-                self.initial_state(solid, [pressure, pressure, pressure, 0.0, 0.0, 0.0], &Known::default());
+            let state = self.initial_state(
+                solid,
+                [pressure, pressure, pressure, 0.0, 0.0, 0.0],
+                &PackingData::default(),
+            );
             for cell in [[0.0; 6], [-1e-4, -1e-4, -1e-4, 0.0, 0.0, 0.0], [0.0, 0.0, -1e-3, 0.0, 0.0, 0.0]] {
                 let strain = Increment { cell, ..Increment::default() };
                 let Answer { stress, contact, gas, .. } = self.advance(&state, &strain, TEST_GAS, false);
@@ -359,7 +362,7 @@ impl SphereModel {
     }
 
     /// Whether a text is the file of such a model.
-    pub fn is_meant(text: &str) -> bool {
+    pub fn has_sphere_schema(text: &str) -> bool {
         schema(text).is_ok_and(|found| found.starts_with("msdd-spheres-model-"))
     }
 
@@ -381,7 +384,7 @@ impl SphereModel {
     }
 
     /// The state of a cell with this solid fraction φ, stress over E*, and what else is known of it.
-    pub fn initial_state(&self, solid: f64, stress: Tensor, known: &Known) -> [f64; COLUMNS] {
+    pub fn initial_state(&self, solid: f64, stress: Tensor, known: &PackingData) -> [f64; COLUMNS] {
         // As it is read again from its columns.
         columns(&state(&columns(&self.file.law.start(between(solid, JAMMING), stress, known))))
     }
@@ -429,8 +432,8 @@ impl SphereModel {
             *value = V::read(&column[first..]);
         }
         let from = state(&before);
-        let thermal = small(V::read(&block.thermal[first..]), MOST_STRAIN);
-        let cell = six!(k => small(V::read(&block.cell[k][first..]), MOST_STRAIN));
+        let thermal = small(V::read(&block.thermal[first..]), MAX_STRAIN);
+        let cell = six!(k => small(V::read(&block.cell[k][first..]), MAX_STRAIN));
         let turn = three!(k => small(V::read(&block.rotation[k][first..]), 1.0));
         // 0 where nothing happens.
         let mut moved = thermal.abs();

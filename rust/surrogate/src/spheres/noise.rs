@@ -6,7 +6,7 @@
 //! just lost its load, it has no stress and conducts nothing by contacts; what it would do later is not known, and neither that nor the
 //! law's error there is counted. Stresses count over the mean of both packings' scales, since one of them may be about to lose its load.
 
-use super::errors::{Errors, LEAST_PRESSURE, Sums};
+use super::errors::{Errors, MIN_PRESSURE, Sums};
 use super::fit::scales;
 use super::tensor::{Tensor, contraction, deviator, mean};
 use super::tracks::Track;
@@ -59,7 +59,7 @@ impl Pair<'_> {
             let wrong = deviator(std::array::from_fn(|k| (a.stress[k] - stress[k]) / scale));
             let pressure = (mean(a.stress) - mean(stress)) / scale;
             sums.add_stress([0.5 * pressure * pressure, 0.5 * contraction(&wrong, &wrong)]);
-            if mean(a.stress) >= LEAST_PRESSURE && mean(a.contact) > 0.0 {
+            if mean(a.stress) >= MIN_PRESSURE && mean(a.contact) > 0.0 {
                 let [contact, gas] = [contact / mean(a.contact) - 1.0, gas / a.gas[2] - 1.0];
                 sums.add_conductivity([0.5 * contact * contact, 0.5 * gas * gas]);
             }

@@ -39,19 +39,19 @@ pub struct Readout {
 /// Least and largest κ_g: those of grains that do not touch, and far above all packings.
 const GAS: [f64; 2] = [1.0, 100.0];
 /// Largest length of the deviator of κ_c and κ_g over their means, so that the conductivity is positive in every direction.
-const MOST_DEVIATOR: f64 = 0.7;
+const MAX_DEVIATOR: f64 = 0.7;
 
 /// Largest compression, least and largest numbers of contacts, and solid fractions less 0.6, of the training, roughly.
-const MOST_COMPRESSION: f64 = 0.15;
+const MAX_COMPRESSION: f64 = 0.15;
 const CONTACTS: [f64; 2] = [2.0, 9.0];
 const SOLID: [f64; 2] = [-0.1, 0.15];
 
 /// √v, v and n.
 #[inline(always)]
 fn common<N: Number>(state: &State<N>) -> [N; 3] {
-    let v = state.compression.not_below(0.0).not_above(MOST_COMPRESSION);
+    let v = state.compression.not_below(0.0).not_above(MAX_COMPRESSION);
     let contacts = state.coordination.not_below(CONTACTS[0]).not_above(CONTACTS[1]);
-    [v.root(), v, contacts.plus(-USUAL_CONTACTS)]
+    [v.root(), v, contacts.plus(-REFERENCE_CONTACTS)]
 }
 
 #[inline(always)]
@@ -62,7 +62,7 @@ pub fn contact_row<N: Number>(contacts: &Contacts, state: &State<N>) -> [N; 5] {
     let resting = contacts.usual(state).resting(state.coordination);
     let still = v.times(1.0 / PRESSED).plus(1.0).inverse();
     let conducting = (state.coordination - resting * still).not_below(CONTACTS[0]).not_above(CONTACTS[1]);
-    [N::constant(1.0), conducting.plus(-USUAL_CONTACTS), s, state.density(), sheared]
+    [N::constant(1.0), conducting.plus(-REFERENCE_CONTACTS), s, state.density(), sheared]
 }
 
 /// η without the fabric's part, and that.
@@ -78,7 +78,7 @@ pub fn relative<N: Number>([of_elastic, of_fabric]: &[f64; 2], state: &State<N>)
     let [elastic, fabric] = directions(state);
     let ratio: Tensor<N> = six!(k => elastic[k].times(*of_elastic) + fabric[k].times(*of_fabric));
     let length = contraction(&ratio, &ratio).root();
-    let limit = length.not_below(MOST_DEVIATOR).inverse().times(MOST_DEVIATOR);
+    let limit = length.not_below(MAX_DEVIATOR).inverse().times(MAX_DEVIATOR);
     let [xx, yy, zz, xy, xz, yz] = scaled(&ratio, limit);
     [xx.plus(1.0), yy.plus(1.0), zz.plus(1.0), xy, xz, yz]
 }
@@ -96,7 +96,7 @@ const PRESSED: f64 = 1e-3;
 /// Square of the stress ratio that friction bears at which half of what shear does to C is done.
 const SHEARED: f64 = 0.003;
 /// Contacts per sphere from which n and m are counted.
-const USUAL_CONTACTS: f64 = 5.5;
+const REFERENCE_CONTACTS: f64 = 5.5;
 
 #[inline(always)]
 fn product<N: Number, const M: usize>(row: &[N; M], coefficients: &[f64; M]) -> N {
@@ -112,8 +112,8 @@ impl Readout {
     #[inline(always)]
     pub fn contact<N: Number>(&self, contacts: &Contacts, state: &State<N>, stress: &Tensor<N>) -> Tensor<N> {
         let (pressure, zero) = (mean(*stress), N::constant(0.0));
-        let per_root = product(&contact_row(contacts, state), &self.contact).not_below(LEAST_CONTACT);
-        let size = per_root * pressure.not_below(LEAST_PRESSURE).power(1.0 / 3.0);
+        let per_root = product(&contact_row(contacts, state), &self.contact).not_below(MIN_CONTACT);
+        let size = per_root * pressure.not_below(MIN_PRESSURE).power(1.0 / 3.0);
         let size = pressure.where_above(zero, size, zero);
         let [xx, yy, zz, xy, xz, yz] = scaled(&relative(&self.direction, state), size);
         // The sums with zero make it 0, and not −0, where there is no load.
@@ -132,7 +132,7 @@ impl Readout {
     pub fn gas_deviator<N: Number>(&self, state: &State<N>) -> Tensor<N> {
         let fabric = scaled(&state.ratios[FABRIC], N::constant(self.gas_direction));
         let length = contraction(&fabric, &fabric).root();
-        let limit = length.not_below(MOST_DEVIATOR).inverse().times(MOST_DEVIATOR);
+        let limit = length.not_below(MAX_DEVIATOR).inverse().times(MAX_DEVIATOR);
         scaled(&fabric, limit)
     }
 
@@ -152,6 +152,6 @@ impl Readout {
 }
 
 /// Least p/E* of which a root is taken.
-const LEAST_PRESSURE: f64 = 1e-100;
+const MIN_PRESSURE: f64 = 1e-100;
 /// Least C: a third of that of the loosest packings.
-const LEAST_CONTACT: f64 = 0.25;
+const MIN_CONTACT: f64 = 0.25;

@@ -1,10 +1,10 @@
 //! Errors of the model of spheres along paths, beside the scatter between packings.
 
-use super::errors::{Errors, LEAST_PRESSURE, Sums};
+use super::errors::{Errors, MIN_PRESSURE, Sums};
 use super::fit::scales;
 use super::model::SphereModel;
 use super::noise::{noise, pairs};
-use super::state::{Known, State};
+use super::state::{PackingData, State};
 use super::tensor::{contraction, deviator, mean};
 use super::tracks::{Track, follow, follow_from};
 use serde::Serialize;
@@ -52,14 +52,14 @@ fn errors(model: &SphereModel, name: &str, tracks: &[&Track]) -> PathErrors {
         let packed = law.start(
             track.packed.solid - track.aside,
             track.packed.stress,
-            &Known { mobilised: Some(track.packed.mobilised), ..Known::default() },
+            &PackingData { mobilised: Some(track.packed.mobilised), ..PackingData::default() },
         );
         add(&mut alone, model, track, &follow_from(law, track, packed));
         for (step, scale) in track.steps.iter().zip(scales(track)) {
             let part = deviator(step.to.stress.map(|part| part / scale));
             size += contraction(&part, &part);
             let (to, contact) = (&step.to, step.to.compared(&step.to.contact));
-            if mean(to.stress) < LEAST_PRESSURE || contact <= 0.0 {
+            if mean(to.stress) < MIN_PRESSURE || contact <= 0.0 {
                 continue;
             }
             let known = to.state(law);
@@ -102,7 +102,7 @@ fn add(sums: &mut Sums, model: &SphereModel, track: &Track, states: &[State]) {
         let pressure = (mean(stress) - mean(data)) / scale;
         sums.add_stress([pressure * pressure, contraction(&wrong, &wrong)]);
         let known = step.to.compared(&step.to.contact);
-        if mean(data) >= LEAST_PRESSURE && known > 0.0 {
+        if mean(data) >= MIN_PRESSURE && known > 0.0 {
             let contact = step.to.compared(&readout.contact(&law.contacts, state, &stress)) / known - 1.0;
             let gas = step.to.gas_error(readout, &track.of_packing(state));
             sums.add_conductivity([contact * contact, gas * gas]);

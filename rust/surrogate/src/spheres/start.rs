@@ -1,7 +1,7 @@
 //! The state of a packing of which solid fraction, stress, and perhaps more are known.
 
-use super::law::{Law, MOST_COMPRESSION, MOST_OF_FRICTION, MOST_STRENGTH, within};
-use super::state::{ELEMENTS, FABRIC, Known, LEAST_COMPRESSION, POURED, State};
+use super::law::{Law, MAX_COMPRESSION, MAX_OF_FRICTION, MAX_STRENGTH, within};
+use super::state::{ELEMENTS, FABRIC, MIN_COMPRESSION, POURED, PackingData, State};
 use super::tensor::{Tensor, contraction, deviator, mean, square};
 
 /// Ratio of the compressions at which the pressure is compared first; then the most iterations for the root between two of them,
@@ -10,13 +10,13 @@ const START_RATIO: f64 = 0.7;
 const ITERATIONS: usize = 60;
 const NEAR_PRESSURE: f64 = 1e-14;
 /// Largest deviator over A for which a stress ratio is looked for: no packing bears as much.
-const MOST_DEVIATOR: f64 = 3.0;
+const MAX_DEVIATOR: f64 = 3.0;
 /// Shares of it that are looked at; iterations for each, the error at which they end, and the least determinant of their
 /// equations.
 const SHARES: u32 = 20;
 const NEWTONS: u32 = 20;
 const NEAR: f64 = 1e-14;
-const LEAST_DETERMINANT: f64 = 0.05;
+const MIN_DETERMINANT: f64 = 0.05;
 
 /// What tells the part of the deviator that the fabric bears.
 enum Borne {
@@ -31,7 +31,7 @@ impl Law {
     /// share the rest of the deviator as after a proportional load: each bears its part until it slides. A packing that bears more
     /// than the strengths of friction has larger ones, by a common factor of at most 2; what friction cannot bear then, the fabric
     /// bears, whose strength is then at most four times as large. What is beyond that is lost.
-    pub fn start(&self, solid: f64, stress: Tensor, known: &Known) -> State {
+    pub fn start(&self, solid: f64, stress: Tensor, known: &PackingData) -> State {
         let mobilised = known.mobilised.unwrap_or(POURED).clamp(0.0, 1.0);
         let mut state = self.start_of_stress(solid, stress, known.fabric.map(deviator), mobilised);
         state.coordination = known.coordination.unwrap_or_else(|| self.contacts.packed(&state));
@@ -47,9 +47,9 @@ impl Law {
         }
         // The pressure grows with v, but where a law has much of it depend on φ_J, which falls as v grows: the largest root counts.
         let beyond = |compression: f64| mean(self.stress(&at(compression))) - pressure;
-        let (mut high, mut excess) = (MOST_COMPRESSION, beyond(MOST_COMPRESSION));
+        let (mut high, mut excess) = (MAX_COMPRESSION, beyond(MAX_COMPRESSION));
         let (mut low, mut lack) = (high, excess);
-        while low > LEAST_COMPRESSION {
+        while low > MIN_COMPRESSION {
             (low, lack) = (START_RATIO * high, beyond(START_RATIO * high));
             if lack <= 0.0 {
                 break;
@@ -90,7 +90,7 @@ impl Law {
         let second = deviator(square(&unit));
         // A third of the trace of the cube, which is the determinant.
         let third = contraction(&unit, &second) / 3.0;
-        let most = length.min(MOST_DEVIATOR);
+        let most = length.min(MAX_DEVIATOR);
         let mut shares = (0..SHARES).map(|k| f64::from(SHARES - k) / f64::from(SHARES) * most);
         let found = shares.find_map(|share| {
             coefficients(self.lode * share, third).map(|found| found.map(|coefficient| share * coefficient))
@@ -111,7 +111,7 @@ impl Law {
         let (x, free) = (state.density(), state.free());
         let loaded = Self::loaded(compression);
         let over = 1.0 / self.pressure(compression, x, free).max(f64::MIN_POSITIVE);
-        if compression <= LEAST_COMPRESSION || !load.iter().all(|part| (part * over).is_finite()) {
+        if compression <= MIN_COMPRESSION || !load.iter().all(|part| (part * over).is_finite()) {
             return state;
         }
         let ratio = self.ratio_of(&load.map(|part| part * over));
@@ -129,12 +129,12 @@ impl Law {
         if size <= 0.0 {
             return state;
         }
-        state.strength = (size / strength).clamp(1.0, MOST_OF_FRICTION);
-        let more = 1.0 - MOST_OF_FRICTION * strength / size;
+        state.strength = (size / strength).clamp(1.0, MAX_OF_FRICTION);
+        let more = 1.0 - MAX_OF_FRICTION * strength / size;
         if more > 0.0 {
             let both: Tensor = std::array::from_fn(|k| state.ratios[FABRIC][k] + more * rest[k]);
-            let needed = MOST_OF_FRICTION * contraction(&both, &both).sqrt() / most;
-            state.strength = needed.clamp(MOST_OF_FRICTION, MOST_STRENGTH);
+            let needed = MAX_OF_FRICTION * contraction(&both, &both).sqrt() / most;
+            state.strength = needed.clamp(MAX_OF_FRICTION, MAX_STRENGTH);
             state.ratios[FABRIC] = within(&both, most * Self::factor(FABRIC, state.strength)).0;
         }
         let stiffening = self.stiffening(x, free, loaded);
@@ -162,7 +162,7 @@ fn coefficients(lode: f64, third: f64) -> Option<[f64; 2]> {
             [2.0 * lode * a, 1.0 - lode * b / 3.0],
         ];
         let determinant = aa * bb - ab * ba;
-        if determinant < LEAST_DETERMINANT {
+        if determinant < MIN_DETERMINANT {
             return None;
         }
         if misses[0].abs().max(misses[1].abs()) < NEAR {

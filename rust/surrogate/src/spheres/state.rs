@@ -10,12 +10,12 @@ pub const ELEMENTS: usize = 4;
 /// The element whose stress ratio is that of the directions of the contacts.
 pub const FABRIC: usize = ELEMENTS - 1;
 /// Solid fraction from which x is measured.
-const USUAL_FRACTION: f64 = 0.6;
+const REFERENCE_FRACTION: f64 = 0.6;
 /// x of all packings of the training lies between these; others have the numbers of these.
-const MOST_LOOSE: f64 = -0.045;
-const MOST_DENSE: f64 = 0.045;
+const MAX_LOOSE: f64 = -0.045;
+const MAX_DENSE: f64 = 0.045;
 /// v below which grains count as touching by this much: its pressure is far below that of any bed.
-pub const LEAST_COMPRESSION: f64 = 1e-7;
+pub const MIN_COMPRESSION: f64 = 1e-7;
 /// The mobilised part of the friction of beds that were poured, as `msdd bed run` counts it there: 0.84 between plates, 0.91 in a
 /// cylinder.
 pub const POURED: f64 = 0.85;
@@ -39,7 +39,7 @@ pub struct State<N: Number = f64> {
 
 /// What may be known of a packing beside its solid fraction and stress. What is not known is as it usually is.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Known {
+pub struct PackingData {
     /// Contacts per sphere, all spheres counted.
     pub coordination: Option<f64>,
     /// Mean of n n over the contacts, with the normals n.
@@ -59,7 +59,7 @@ impl<N: Number> State<N> {
     /// x, between those of the packings of the training.
     #[inline(always)]
     pub fn density(&self) -> N {
-        self.jamming.plus(-USUAL_FRACTION).not_below(MOST_LOOSE).not_above(MOST_DENSE)
+        self.jamming.plus(-REFERENCE_FRACTION).not_below(MAX_LOOSE).not_above(MAX_DENSE)
     }
 
     /// g: the part of the friction that is not mobilised.

@@ -5,7 +5,7 @@ use super::fit_state::readout;
 use super::law::Law;
 use super::model::{COLUMNS, Increment, SphereModel, columns, state};
 use super::parameters::{beginning, law as law_of, parameters};
-use super::state::{FABRIC, Known, POURED, State};
+use super::state::{FABRIC, POURED, PackingData, State};
 use super::tensor::{Rotation, Tensor, contraction, deviator, mean, rotation, turned};
 use super::tracks::{Point, Step, Track, advanced, follow};
 use super::training::{is_held_out, train};
@@ -29,7 +29,7 @@ pub(super) fn packing(law: &Law, generator: &mut ChaCha8Rng) -> State {
     let mut stress = tensor(generator, 0.15 * pressure);
     stress[..3].iter_mut().for_each(|normal| *normal += pressure);
     let mobilised = Some((0.7 + 0.7 * random(generator)).min(1.0));
-    law.start(solid, stress, &Known { mobilised, ..Known::default() })
+    law.start(solid, stress, &PackingData { mobilised, ..PackingData::default() })
 }
 
 pub(super) fn model() -> SphereModel {
@@ -48,11 +48,11 @@ fn a_start_has_the_solid_fraction_and_stress_that_were_given() {
         let pressure = libm::pow(10.0, -5.5 + 2.5 * random(&mut generator));
         let mut stress = tensor(&mut generator, 0.1 * pressure);
         stress[..3].iter_mut().for_each(|normal| *normal += pressure);
-        let found = law.start(solid, stress, &Known::default());
+        let found = law.start(solid, stress, &PackingData::default());
         assert!((found.solid() - solid).abs() < 1e-14);
         assert!(worst(&law.stress(&found), &stress) < 1e-10 * pressure, "{stress:?} {found:?}");
     }
-    let empty = law.start(0.6, [0.0; 6], &Known::default());
+    let empty = law.start(0.6, [0.0; 6], &PackingData::default());
     assert_eq!(law.stress(&empty), [0.0; 6]);
 }
 
@@ -172,7 +172,7 @@ fn many_small_strains_are_one_large_one() {
 fn a_packing_without_load_gets_the_same_pressure_by_steps_of_any_size() {
     let (model, growth) = (model(), 2e-6);
     for mobilised in [0.0, 0.5, 0.85, 1.0] {
-        let known = Known { mobilised: Some(mobilised), ..Known::default() };
+        let known = PackingData { mobilised: Some(mobilised), ..PackingData::default() };
         let start = columns(&model.file.law.start(0.6, [0.0; 6], &known));
         let pressure = |steps: u32| {
             let step = Increment { thermal: growth / f64::from(steps), ..Increment::default() };
@@ -196,7 +196,8 @@ fn a_strain_of_nearly_nothing_does_not_change_the_stress_that_a_large_step_left(
     for _ in 0..5_000 {
         let solid = 0.6 + 0.02 * random(&mut generator);
         let pressure = libm::pow(10.0, -6.5 + 3.0 * random(&mut generator));
-        let known = Known { mobilised: Some(0.5 + 0.5 * random(&mut generator)), ..Known::default() };
+        let known =
+            PackingData { mobilised: Some(0.5 + 0.5 * random(&mut generator)), ..PackingData::default() };
         let mut at = columns(&law.start(solid, [pressure, pressure, pressure, 0.0, 0.0, 0.0], &known));
         for _ in 0..3 {
             let size = 0.5 * state(&at).compression.max(1e-7);
@@ -383,7 +384,7 @@ fn files_that_no_training_wrote_are_refused() {
 fn packings_that_bear_a_large_deviator_start_with_it() {
     let law = model().file.law;
     let stress = [2.2e-5, 0.5e-5, 0.3e-5, 0.0, 0.0, 0.0];
-    let start = law.start(0.575, stress, &Known::default());
+    let start = law.start(0.575, stress, &PackingData::default());
     let part = deviator(law.stress(&start));
     assert!(worst(&part, &deviator(stress)) < 1e-10, "{start:?}");
 }
@@ -395,7 +396,7 @@ fn the_deviator_depends_on_the_direction_of_the_strain() {
     let law = model().file.law;
     assert!(law.lode > 0.2, "{}", law.lode);
     let stress = [1e-5, 1e-5, 1e-5, 0.0, 0.0, 0.0];
-    let known = Known { mobilised: Some(0.0), ..Known::default() };
+    let known = PackingData { mobilised: Some(0.0), ..PackingData::default() };
     let after = |stretch: Tensor| {
         let mut state = law.start(0.635, stress, &known);
         for _ in 0..20 {
@@ -465,10 +466,10 @@ fn packings_keep_the_contacts_they_have_more_unless_they_were_made_without_frict
         model.advance(start, &strain, 8.5, false)
     };
     let kept = |mobilised: f64, size: f64| {
-        let known = Known { mobilised: Some(mobilised), ..Known::default() };
+        let known = PackingData { mobilised: Some(mobilised), ..PackingData::default() };
         let usual = model.initial_state(0.59, stress, &known);
         let contacts = after(&usual, 0.0).coordination + 0.8;
-        let more = model.initial_state(0.59, stress, &Known { coordination: Some(contacts), ..known });
+        let more = model.initial_state(0.59, stress, &PackingData { coordination: Some(contacts), ..known });
         let start = after(&more, 0.0);
         assert!((start.coordination - contacts).abs() < 1e-12, "{} {contacts}", start.coordination);
         assert!(worst(&start.stress, &stress) < 1e-10 * 2e-8, "{:?}", start.stress);
@@ -492,8 +493,9 @@ fn contacts_of_packings_of_little_friction_come_with_compression_and_go_with_she
     let law = model().file.law;
     let stress = [1e-6, 1e-6, 1e-6, 0.0, 0.0, 0.0];
     let more = |state: &State| state.coordination - law.contacts.sheared(state);
-    let start =
-        |mobilised: f64| law.start(0.635, stress, &Known { mobilised: Some(mobilised), ..Known::default() });
+    let start = |mobilised: f64| {
+        law.start(0.635, stress, &PackingData { mobilised: Some(mobilised), ..PackingData::default() })
+    };
     let opened = |state: &State| advanced(&law, state, -1e-4, [0.0; 6]);
     let closed = |state: &State| advanced(&law, state, 1e-4, [0.0; 6]);
     let packed = start(0.0);
@@ -513,7 +515,8 @@ fn contacts_do_not_grow_with_cycles() {
     let law = model().file.law;
     let stress = [1e-6, 1e-6, 1e-6, 0.0, 0.0, 0.0];
     for mobilised in [0.0, 0.5, 0.75, POURED, 1.0] {
-        let known = Known { mobilised: Some(mobilised), coordination: Some(5.0), ..Known::default() };
+        let known =
+            PackingData { mobilised: Some(mobilised), coordination: Some(5.0), ..PackingData::default() };
         let start = law.start(0.6, stress, &known);
         let mut state = start;
         for _ in 0..100 {
@@ -536,7 +539,8 @@ fn grains_that_rest_on_others_conduct_once_the_packing_is_pressed() {
     let (law, readout) = (&file.law, &file.readout);
     let gain = |pressure: f64, mobilised: f64| {
         let stress = [pressure, pressure, pressure, 0.0, 0.0, 0.0];
-        let known = |coordination| Known { mobilised: Some(mobilised), coordination, ..Known::default() };
+        let known =
+            |coordination| PackingData { mobilised: Some(mobilised), coordination, ..PackingData::default() };
         let with = |coordination| law.start(0.6, stress, &known(coordination));
         let usual = law.contacts.usual(&with(None));
         let of = |more: f64| usual.contacts + more;
@@ -561,7 +565,11 @@ fn the_fabric_turns_by_the_number_of_contacts_that_bear_load() {
     let law = model().file.law;
     let stress = [1e-5, 1e-5, 1e-5, 0.0, 0.0, 0.0];
     let turned = |contacts: f64, mobilised: f64| {
-        let known = Known { coordination: Some(contacts), mobilised: Some(mobilised), ..Known::default() };
+        let known = PackingData {
+            coordination: Some(contacts),
+            mobilised: Some(mobilised),
+            ..PackingData::default()
+        };
         let start = law.start(0.635, stress, &known);
         let after = advanced(&law, &start, 0.0, [1e-5, -1e-5, 0.0, 0.0, 0.0, 0.0]);
         assert!(after.ratios[FABRIC][0] < 0.0 && after.ratios[FABRIC][1] > 0.0);
@@ -571,7 +579,7 @@ fn the_fabric_turns_by_the_number_of_contacts_that_bear_load() {
     let ratio = (6.0 - law.least_contacts) / (5.0 - law.least_contacts);
     assert!((many / some / ratio - 1.0).abs() < 0.05, "{many} {some} {ratio}");
     assert!(few < 0.1 * some, "{few} {some}");
-    let packed = Known { mobilised: Some(0.9), ..Known::default() };
+    let packed = PackingData { mobilised: Some(0.9), ..PackingData::default() };
     let usual = law.contacts.sheared(&law.start(0.635, stress, &packed));
     let [box_like, bed] = [0.0, 0.5].map(|resting| turned(usual + resting, 0.9));
     assert!((bed / box_like - 1.0).abs() < 0.01, "{bed} {box_like}");
@@ -585,7 +593,7 @@ fn packings_with_mobilised_friction_are_softer() {
     let stress = [1e-6, 1e-6, 1e-6, 0.0, 0.0, 0.0];
     let solid = |mobilised: f64| if mobilised > 0.5 { 0.585 } else { 0.635 };
     let after = |mobilised: f64, strain: Increment| {
-        let known = Known { mobilised: Some(mobilised), ..Known::default() };
+        let known = PackingData { mobilised: Some(mobilised), ..PackingData::default() };
         let start = model.initial_state(solid(mobilised), stress, &known);
         assert_eq!(start[3], mobilised);
         model.advance(&start, &strain, 8.5, false).stress
@@ -602,7 +610,7 @@ fn packings_with_mobilised_friction_are_softer() {
     assert!(mean(poured) < 0.9 * mean(slippery), "{poured:?} {slippery:?}");
     // Unless something else is said, the bed was poured.
     assert_eq!(after(POURED, closed), {
-        let start = model.initial_state(solid(POURED), stress, &Known::default());
+        let start = model.initial_state(solid(POURED), stress, &PackingData::default());
         model.advance(&start, &closed, 8.5, false).stress
     });
 }
@@ -613,7 +621,7 @@ fn a_known_fabric_bears_its_part_of_the_deviator() {
     let law = model().file.law;
     let fabric = [0.30, 0.32, 0.38, 0.0, 0.0, 0.0];
     let stress = [0.9e-5, 0.95e-5, 1.15e-5, 0.0, 0.0, 0.0];
-    let known = Known { fabric: Some(fabric), ..Known::default() };
+    let known = PackingData { fabric: Some(fabric), ..PackingData::default() };
     let start = law.start(0.6, stress, &known);
     assert!(worst(&law.stress(&start), &stress) < 1e-10 * 1e-5, "{start:?}");
     let part = deviator(fabric).map(|part| law.fabric[0] * part);
@@ -622,7 +630,10 @@ fn a_known_fabric_bears_its_part_of_the_deviator() {
     let without = law.start(
         0.6,
         stress,
-        &Known { fabric: Some([1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0, 0.0, 0.0, 0.0]), ..Known::default() },
+        &PackingData {
+            fabric: Some([1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0, 0.0, 0.0, 0.0]),
+            ..PackingData::default()
+        },
     );
     let left = |start: &State| {
         let state = advanced(&law, start, 2e-3, [0.0; 6]);

@@ -2,7 +2,7 @@
 
 use super::law::{Law, Strain};
 use super::readout::Readout;
-use super::state::{Known, State};
+use super::state::{PackingData, State};
 use super::tensor::{Tensor, contraction, mean, rotation};
 use std::collections::BTreeMap;
 
@@ -29,8 +29,8 @@ pub struct Point {
 
 impl Point {
     /// What is known of the packing beside solid fraction and stress.
-    pub fn known(&self) -> Known {
-        Known {
+    pub fn known(&self) -> PackingData {
+        PackingData {
             coordination: Some(self.coordination),
             fabric: Some(self.fabric),
             mobilised: Some(self.mobilised),
@@ -129,7 +129,7 @@ impl Track {
 
 /// Largest strain that is applied in one part.
 const PART: f64 = 2.5e-4;
-const MOST_PARTS: f64 = 40.0;
+const MAX_PARTS: f64 = 40.0;
 
 /// Takes the mean solid fraction of a recipe for that of its packings. Boxes of a thousand spheres that were made alike jam at solid
 /// fractions which scatter, and which tell little of what a box does when it is strained; those of recipes differ by more, and tell it.
@@ -225,7 +225,7 @@ fn given_way(law: &Law, from: &State, step: &Step, axis: usize) -> State {
 /// In how many parts a strain is applied.
 pub fn parts(thermal: f64, stretch: Tensor) -> f64 {
     let largest = stretch.iter().fold(thermal.abs(), |a, b| a.max(b.abs()));
-    (largest / PART).ceil().clamp(1.0, MOST_PARTS)
+    (largest / PART).ceil().clamp(1.0, MAX_PARTS)
 }
 
 /// The state after a straight line of strain, in as many parts as it is long.

@@ -13,11 +13,11 @@ use sha2::{Digest, Sha256};
 use std::collections::BTreeSet;
 
 /// Usual number of epochs: the fit begins near its minimum, and after these it is there for all practical purposes.
-pub const USUAL_EPOCHS: u32 = 12;
+pub const DEFAULT_EPOCHS: u32 = 12;
 /// One packing in so many is held out of the training.
 const HELD_OUT: u64 = 5;
 /// Least number of states to which the law is fitted.
-const LEAST_STEPS: usize = 100;
+const MIN_STEPS: usize = 100;
 
 /// Whether a packing is held out of a training with this seed.
 pub fn is_held_out(packing: i64, seed: u64) -> bool {
@@ -34,7 +34,7 @@ pub fn train(tracks: &[Track], options: &TrainingOptions) -> Result<SphereModel,
     options.check()?;
     let (unseen, seen): (Vec<Track>, Vec<Track>) =
         tracks.iter().cloned().partition(|track| is_held_out(track.packing, options.seed));
-    if seen.iter().map(|track| track.steps.len()).sum::<usize>() < LEAST_STEPS {
+    if seen.iter().map(|track| track.steps.len()).sum::<usize>() < MIN_STEPS {
         let text = "fewer than 100 states on paths of strain of boxes of spheres, to which this kind of model is fitted";
         return Err(SurrogateError::Data(text.to_string()));
     }

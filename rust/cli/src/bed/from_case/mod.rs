@@ -1,4 +1,4 @@
-//! `msdd bed from-case`: the bed of a case of the solver as an `elements.toml`.
+//! `msdd bed from-case`: the bed of a case of the solver as an `dem.toml`.
 
 mod functions;
 mod read;
@@ -9,7 +9,7 @@ use crate::confirm::duration;
 use crate::error::CliError;
 use clap::Args;
 use msdd_beds::cost::estimate;
-use msdd_beds::scene::{FILE, Scene};
+use msdd_beds::dem_case::{DemCase, FILE};
 use msdd_files::{check_target, write};
 use read::Reader;
 use std::path::{Path, PathBuf};
@@ -17,7 +17,7 @@ use std::path::{Path, PathBuf};
 #[derive(Args)]
 #[command(after_help = "Examples:
   msdd case new results/store --yes --spheres --radius 0.03 --height 0.1 --side 320 --pressure 2e4
-  msdd bed from-case results/store          writes results/store/elements.toml
+  msdd bed from-case results/store          writes results/store/dem.toml
   msdd bed run results/store
 
 The spheres fill the whole bed; the command says how many they are and how long 'msdd bed run' takes. A smaller bed of the same kind
@@ -25,9 +25,9 @@ is quicker: change number and base or radius in the file. What the file cannot e
 pub struct Arguments {
     /// Case folder with spheres and a mesh of system/blockMeshDict, as `msdd case new --spheres` or `msdd bed case` write it.
     case: PathBuf,
-    /// Folder for elements.toml. Default: the case folder.
+    /// Folder for dem.toml. Default: the case folder.
     out: Option<PathBuf>,
-    /// Replace an elements.toml that is there.
+    /// Replace an dem.toml that is there.
     #[arg(long)]
     force: bool,
 }
@@ -72,9 +72,9 @@ pub fn run(arguments: &Arguments) -> Result<(), CliError> {
 }
 
 /// The file, with its notes as comments.
-fn text(scene: &Scene, case: &Path, out: &Path, size: &str, notes: &[String]) -> Result<String, CliError> {
+fn text(scene: &DemCase, case: &Path, out: &Path, size: &str, notes: &[String]) -> Result<String, CliError> {
     let mut text = format!(
-        "# The bed of the case {} by discrete elements, written by 'msdd bed from-case'. Run it with: msdd bed run {}\n\
+        "# The bed of the case {} by DEM, written by 'msdd bed from-case'. Run it with: msdd bed run {}\n\
          # {size}. Keys: the book, Measured beds. SI units, temperatures in K.\n",
         case.display(),
         out.display()
@@ -87,7 +87,7 @@ fn text(scene: &Scene, case: &Path, out: &Path, size: &str, notes: &[String]) ->
 mod tests {
     use super::*;
     use crate::bed::foam;
-    use crate::bed::start::Start;
+    use crate::bed::start::FirstRow;
     use msdd_beds::schedule::Schedule;
 
     fn near(found: f64, wanted: f64, tolerance: f64) {
@@ -95,11 +95,11 @@ mod tests {
     }
 
     /// The case of a shipped bed, read again. Needs OpenFOAM, because it reads the files through foamDictionary.
-    fn there_and_back(bed: &str, results: &str) -> Option<(Scene, Scene)> {
+    fn there_and_back(bed: &str, results: &str) -> Option<(DemCase, DemCase)> {
         std::process::Command::new("foamDictionary").arg("-help").output().ok()?;
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../cases").join(bed);
-        let scene = Scene::read(&folder).unwrap();
-        let start = Start::read(&folder.join(results)).unwrap();
+        let scene = DemCase::read(&folder).unwrap();
+        let start = FirstRow::read(&folder.join(results)).unwrap();
         let files = foam::files(&folder, &scene, &start, "bed", Path::new("/checkout")).unwrap();
         let case =
             std::env::temp_dir().join(format!("msdd-from-{}-{}", bed.replace('/', "-"), std::process::id()));
@@ -107,12 +107,12 @@ mod tests {
         let again = Reader::open(&case).unwrap().scene().unwrap();
         again.checked(&case.join(FILE)).unwrap();
         msdd_files::write(&case.join(FILE), again.text(&case).unwrap().as_bytes()).unwrap();
-        assert_eq!(Scene::read(&case).unwrap(), again);
+        assert_eq!(DemCase::read(&case).unwrap(), again);
         std::fs::remove_dir_all(&case).unwrap();
         Some((scene, again))
     }
 
-    fn same(scene: &Scene, again: &Scene) {
+    fn same(scene: &DemCase, again: &DemCase) {
         assert_eq!((&again.gas, &again.heated), (&scene.gas, &scene.heated));
         assert_eq!(again.container.gravity, scene.container.gravity);
         let (a, b) = (&again.grains, &scene.grains);
@@ -138,7 +138,7 @@ mod tests {
 
     #[test]
     fn a_column_becomes_the_bed_that_it_was_made_of() {
-        let Some((scene, again)) = there_and_back("column", "elements.csv") else { return };
+        let Some((scene, again)) = there_and_back("column", "dem.csv") else { return };
         same(&scene, &again);
         assert!(again.container.endless && again.lid.pressing.is_none());
         (0..2).for_each(|k| near(again.container.base.unwrap()[k], scene.container.base.unwrap()[k], 0.05));
@@ -152,7 +152,7 @@ mod tests {
 
     #[test]
     fn a_wedge_becomes_the_cylinder_that_it_was_made_of() {
-        let Some((scene, again)) = there_and_back("beds/round-shell", "elements-1.csv") else { return };
+        let Some((scene, again)) = there_and_back("beds/round-shell", "dem-1.csv") else { return };
         same(&scene, &again);
         near(again.container.radius.unwrap(), scene.container.radius.unwrap(), 1e-6);
         near(again.record.radius.unwrap(), scene.record.radius.unwrap(), 1e-6);
@@ -161,7 +161,7 @@ mod tests {
         let (a, b) = (again.shell.unwrap(), scene.shell.unwrap());
         near(a.thickness, b.thickness, 1e-6);
         assert_eq!((a.young_modulus, a.thermal_expansion), (b.young_modulus, b.thermal_expansion));
-        let Some((scene, again)) = there_and_back("beds/friction-round", "elements-1.csv") else { return };
+        let Some((scene, again)) = there_and_back("beds/friction-round", "dem-1.csv") else { return };
         near(again.grains.wall_friction, scene.grains.wall_friction, 0.03);
     }
 }

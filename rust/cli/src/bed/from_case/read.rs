@@ -1,13 +1,13 @@
-//! The bed of a case as the discrete elements describe it.
+//! The bed of a case as DEM describes it.
 
 use super::functions::{property, schedule};
 use super::shape::{DIGITS, Extent, Mesh};
 use super::walls::Walls;
 use crate::error::CliError;
 use msdd_beds::case::{GasKeys, Grains, Vessel};
+use msdd_beds::dem_case::{DemCase, Heated, LidKeys, RecordKeys, Shell, Time};
 use msdd_beds::named_gases::GasName;
 use msdd_beds::property::Property;
-use msdd_beds::scene::{Heated, LidKeys, RecordKeys, Scene, Shell, Time};
 use msdd_beds::schedule::Schedule;
 use msdd_case::case::{optional, points};
 use msdd_case::dictionary::{Dictionary, Entry, joined};
@@ -19,7 +19,7 @@ use std::path::Path;
 const FRICTION: f64 = 0.3;
 const RESTITUTION: f64 = 0.5;
 const SOFTER: f64 = 4.0;
-/// Intervals of a run, and steps of the discrete elements in each, as in cases/beds.
+/// Intervals of a run, and steps of DEM in each, as in cases/beds.
 const INTERVALS: f64 = 40.0;
 const STEPS: u64 = 4000;
 const TOLERANCE: f64 = 0.02;
@@ -28,7 +28,7 @@ const MARGIN: f64 = 2.0;
 /// Without gravity in the case, the most that the weight of the bed adds to the stress at its bottom, over the pressure of the lid.
 const LIGHT: f64 = 0.05;
 const GRAVITY: f64 = 9.81;
-/// Keys of the properties that have no part in the discrete elements, or are read here.
+/// Keys of the properties that have no part in DEM, or are read here.
 const KNOWN: [&str; 12] = [
     "FoamFile",
     "surrogate",
@@ -79,7 +79,7 @@ impl<'a> Reader<'a> {
     ///
     /// # Errors
     /// A value that is missing or not understood.
-    pub fn scene(&mut self) -> Result<Scene, CliError> {
+    pub fn scene(&mut self) -> Result<DemCase, CliError> {
         let heated = self.heated()?;
         let mut grains = self.grains()?;
         let extent = self.mesh.extent(grains.diameter, |name| heated.iter().any(|one| one.wall == name));
@@ -106,7 +106,7 @@ impl<'a> Reader<'a> {
         });
         let record = self.record(&grains, &extent, &heated)?;
         self.left_out()?;
-        Ok(Scene {
+        Ok(DemCase {
             seed: 1,
             heat_source: None,
             grains,
@@ -374,18 +374,17 @@ impl<'a> Reader<'a> {
         Ok(RecordKeys { wall: wall.to_string(), distances, heights, radius })
     }
 
-    /// Notes what the discrete elements do not have.
+    /// Notes what DEM does not have.
     fn left_out(&mut self) -> Result<(), CliError> {
         for name in ["constant/fvOptions", "system/fvOptions"] {
             let Some(sources) = optional(self.folder, name)? else { continue };
             for key in sources.keys().filter(|key| key.text != "FoamFile") {
-                let note = format!("{name}: {} is left out: elements.toml has no heat from inside", key.text);
+                let note = format!("{name}: {} is left out: dem.toml has no heat from inside", key.text);
                 self.notes.push(note);
             }
         }
         if self.properties.text("mechanics").is_ok_and(|mechanics| mechanics == "none") {
-            self.notes
-                .push("mechanics none: the spheres of the discrete elements move all the same".to_string());
+            self.notes.push("mechanics none: the spheres of DEM move all the same".to_string());
         }
         let others = self.properties.keys().filter(|key| !KNOWN.contains(&key.text.as_str()));
         let others = others.map(|key| format!("constant/granularProperties: {} is left out", key.text));

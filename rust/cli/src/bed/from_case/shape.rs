@@ -6,7 +6,7 @@ use msdd_case::case::corners;
 use msdd_case::dictionary::{Dictionary, Token, joined};
 use std::collections::BTreeMap;
 
-/// Names of the walls in meshes of 'msdd case new' and in an `elements.toml`.
+/// Names of the walls in meshes of 'msdd case new' and in an `dem.toml`.
 const OF_BOX: [(&str, &str); 6] = [
     ("left", "x_low"),
     ("right", "x_high"),

@@ -3,7 +3,7 @@
 use super::functions::schedule;
 use super::shape::{DIGITS, Mesh};
 use crate::error::CliError;
-use msdd_beds::scene::Shell;
+use msdd_beds::dem_case::Shell;
 use msdd_beds::schedule::Schedule;
 use msdd_case::dictionary::{Dictionary, Entry};
 use msdd_case::numbers::{plain, rounded};
@@ -23,7 +23,7 @@ pub struct Walls {
 }
 
 impl Walls {
-    /// Reads `equilibriumCoeffs/walls`; what the discrete elements cannot have is noted.
+    /// Reads `equilibriumCoeffs/walls`; what DEM cannot model is noted.
     ///
     /// # Errors
     /// Numbers that are missing.
@@ -58,9 +58,8 @@ impl Walls {
                     }
                 }
                 ("rigid" | "frictionless", _) if entry.get("displacement").is_none() => {}
-                _ => notes.push(format!(
-                    "the wall '{patch}' of type {kind} does not move, nor give way, in the discrete elements"
-                )),
+                _ => notes
+                    .push(format!("the wall '{patch}' of type {kind} does not move, nor give way, in DEM")),
             }
         }
         walls.friction = frictions.iter().map(|one| one.1).fold(0.0, f64::max);
@@ -68,7 +67,7 @@ impl Walls {
             let all: Vec<String> =
                 frictions.iter().map(|(patch, value)| format!("{patch} {}", plain(*value))).collect();
             notes.push(format!(
-                "the friction of the walls differs ({}): all walls of the discrete elements have the largest",
+                "the friction of the walls differs ({}): all walls of DEM have the largest",
                 all.join(", ")
             ));
         }

@@ -18,7 +18,7 @@ pub type Figure = (&'static str, String);
 const MOST: usize = 8;
 const PLACES: usize = 60;
 /// Most rows of cells along an axis that are drawn one by one, else steps; rows are told apart by this share of the length.
-const MOST_ROWS: usize = 200;
+const MAX_ROWS: usize = 200;
 const STEPS: f64 = 15.0;
 const ROUNDED: f64 = 1e5;
 const BANDS: &str = "bands.csv";
@@ -191,7 +191,7 @@ fn profile(run: &Run) -> Result<Option<Figure>, CliError> {
         let step = |place: &[f64; 2]| ((STEPS - 1e-6) * share(place)).floor() as i64;
         let mut sums = BTreeMap::<i64, [f64; 3]>::new();
         for ((place, value), volume) in places.iter().zip(values).zip(&run.parts[0].mesh.volumes) {
-            let key = if rows.len() <= MOST_ROWS { row(place) } else { step(place) };
+            let key = if rows.len() <= MAX_ROWS { row(place) } else { step(place) };
             let sum = sums.entry(key).or_default();
             (0..3).for_each(|k| sum[k] += volume * [place[axis], *value, 1.0][k]);
         }

@@ -24,7 +24,7 @@ use std::path::PathBuf;
 use std::time::Duration;
 
 /// Times that a part is submitted again without a new packing in it.
-const MOST_ATTEMPTS: u32 = 3;
+const MAX_ATTEMPTS: u32 = 3;
 
 #[derive(Args)]
 #[command(
@@ -108,12 +108,12 @@ impl Attempts {
     /// Counts joining, if all parts are done and nothing is queued.
     fn count_merge(&mut self, queued: &Queued, standing: &Standing, parts: &Parts) -> Result<(), CliError> {
         self.merges += u32::from(standing.all_finished() && !queued.merge);
-        if self.merges <= MOST_ATTEMPTS {
+        if self.merges <= MAX_ATTEMPTS {
             return Ok(());
         }
         let log = parts.log("merge");
         Err(CliError::Message(format!(
-            "the parts are not joined, tried {MOST_ATTEMPTS} times; the log is {}",
+            "the parts are not joined, tried {MAX_ATTEMPTS} times; the log is {}",
             log.display()
         )))
     }
@@ -127,10 +127,10 @@ impl Attempts {
                 (*before, *count) = (stored, 0);
             }
             *count += 1;
-            if *count > MOST_ATTEMPTS {
+            if *count > MAX_ATTEMPTS {
                 let log = parts.log(&part.to_string());
                 return Err(CliError::Message(format!(
-                    "part {part} of {} ended {MOST_ATTEMPTS} times without a new packing; its log is {}",
+                    "part {part} of {} ended {MAX_ATTEMPTS} times without a new packing; its log is {}",
                     parts.count(),
                     log.display()
                 )));

@@ -42,7 +42,7 @@ const CHART: [(&str, &str, &str); 20] = [
     ("online RVEs", "all cells, 30x9, one packing", "a box of grains in each cell, 30 × 9 cells"),
     ("online RVEs", "shared, tolerance 5e-3, 100x30, one packing", "boxes of grains shared by like cells"),
     ("online RVEs", "all cells, 100x30, one packing", "a box of grains in each cell (cost extrapolated)"),
-    ("discrete elements", "discrete elements", "15 000 discs, one thread"),
+    ("DEM", "DEM", "15 000 discs, one thread"),
     ("quoted from the paper", "paper: multiscale, 40 s", "the paper's solver against its own discs (quoted)"),
 ];
 
@@ -82,7 +82,7 @@ fn chart(section: &mut Section, report: &Json) -> Result<(), DocsError> {
         for case in CASES {
             let points = report.list(&format!("/chart/{case}"))?;
             let fits = |point: &&Json| {
-                point.says("/family", family) && (point.says("/name", name) || family == "discrete elements")
+                point.says("/family", family) && (point.says("/name", name) || family == "DEM")
             };
             let point = points.iter().find(fits);
             let number = |entry: &str| point.and_then(|point| point.maybe(entry));

@@ -1,4 +1,4 @@
-//! Section of the page on the limits of the discrete elements.
+//! Section of the page on the limits of DEM.
 
 use crate::ReportError;
 use crate::failures::elements::Limits;
@@ -29,7 +29,7 @@ pub fn steps(made: &Made) -> Result<String, ReportError> {
         format!("{low:.2} to {:.2}", ratios.iter().copied().fold(0.0, f64::max))
     };
     let caption = format!(
-        "Fig. #. Largest stable time steps of discrete elements; longer ones are unstable. Measured over predicted: mechanical {}, thermal {}. The program uses \
+        "Fig. #. Largest stable time steps of DEM; longer ones are unstable. Measured over predicted: mechanical {}, thermal {}. The program uses \
          0.4 and 0.7 of the bound, and refuses fixed steps beyond it.",
         ratio(&|s| s.mechanical),
         ratio(&|s| s.thermal)
@@ -135,7 +135,7 @@ fn said_of(limits: &Limits) -> String {
 pub fn unjamming(made: &Made) -> Result<String, ReportError> {
     let Some(limits) = &made.report.failures.limits else { return Ok(String::new()) };
     let styles = [
-        ("discrete elements", Style { size: 4, ..Style::marker(0, Marker::Circle) }),
+        ("DEM", Style { size: 4, ..Style::marker(0, Marker::Circle) }),
         ("increment", Style::line(1, Line::Solid)),
         ("paper", Style::line(2, Line::Dashed)),
     ];
@@ -164,10 +164,10 @@ pub fn unjamming(made: &Made) -> Result<String, ReportError> {
         _ => "never".to_string(),
     };
     let caption = format!(
-        "Fig. #. Grains that shrink until they lose contact, mean of {} packings. The pressure falls below 1 Pa: discrete elements {}, the law of the increments {}, the paper's \
+        "Fig. #. Grains that shrink until they lose contact, mean of {} packings. The pressure falls below 1 Pa: DEM {}, the law of the increments {}, the paper's \
          network {}. The law starts from the stress of the packings; its K/k is kept above zero, at 1e-4 or more.",
         limits.packings,
-        said("discrete elements"),
+        said("DEM"),
         said("increment"),
         said("paper")
     );

@@ -151,11 +151,11 @@ pub fn cycles(made: &Made) -> Result<String, ReportError> {
     let caption = format!(
         "Fig. #. Ten cycles of 50 K ± 20 K at the walls (case cycle): pressure over that at the start, after 1, 2 and 10 cycles {}. Grains rearrange in \
          the first cycle and hardly after; T lags behind the walls, so that a cycle does not end at 50 K. Largest difference from the \
-         discrete elements: {} % when cells keep their place, {} % when grains move.",
+         DEM: {} % when cells keep their place, {} % when grains move.",
         all.iter().map(ends).collect::<Vec<_>>().join("; "),
         fixed(worst(&made.report.failures.cycles, "keep"), 1),
         fixed(worst(&made.report.failures.cycles, "move"), 1)
     );
-    let source = "discrete elements committed, seeds 21 to 23; solver measured and cached";
+    let source = "DEM committed, seeds 21 to 23; solver measured and cached";
     Figure { id: "cycles", panels, keys, caption, source }.html(&made.report.made)
 }

@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 /// in 16 000.
 const LARGEST_DEVIATION: f64 = 4.0;
 /// With fewer packings the standard error itself is not known well enough to judge by it.
-const LEAST_PACKINGS: usize = 10;
+const MIN_PACKINGS: usize = 10;
 
 /// A mean over packings with its standard error.
 #[derive(Clone, Debug, PartialEq)]
@@ -30,7 +30,7 @@ impl Mean {
         let off = self.mean / self.standard_error;
         // Student's t: with few packings the same chance allows more standard errors, 6.6 with ten.
         let largest = LARGEST_DEVIATION * (1.0 + 6.0 / (self.packings.max(2) - 1) as f64);
-        (self.packings >= LEAST_PACKINGS && off.abs() > largest).then(|| Violation {
+        (self.packings >= MIN_PACKINGS && off.abs() > largest).then(|| Violation {
             row: format!("isotropic packings of {} {}", self.count, self.grains),
             law: "axes are alike",
             found: format!("mean {} {:.3e}, {off:.1} standard errors off 0", self.quantity, self.mean),

@@ -9,7 +9,7 @@ use msdd_beds::averages::stress;
 use msdd_spheres::Simulation;
 
 /// p/E* over v^(3/2) of usual packings, with the compression v.
-const USUAL_BULK: f64 = 0.06;
+const REFERENCE_BULK: f64 = 0.06;
 /// Stiffness along an axis over dp/dv.
 const ALONG: f64 = 1.6;
 /// How far a box gives way over how far it closes along each of the two other axes, at first; and the largest.
@@ -36,7 +36,7 @@ impl GivingWay {
     pub(super) fn next(&mut self, simulation: &Simulation, axis: usize, step: &Strain) -> f64 {
         let now = along_axes(simulation);
         let pressure = (now.iter().sum::<f64>() / 3.0).max(f64::MIN_POSITIVE);
-        let compression = libm::pow(pressure / USUAL_BULK, 2.0 / 3.0);
+        let compression = libm::pow(pressure / REFERENCE_BULK, 2.0 / 3.0);
         let missing = (now[axis] - self.packed[axis]) * compression / (ALONG * 1.5 * pressure);
         if self.closed != 0.0 {
             self.ratio = (self.ratio + LEARNED * missing / self.closed).clamp(0.0, MOST);

@@ -27,7 +27,7 @@ const LENGTHS: [f64; 2] = [0.15, 0.6];
 const THERMAL_SHARE: f64 = 0.5;
 /// Least compression at the end of a piece over the strain of the block, and attempts to find such a direction: loose boxes that change
 /// their shape only lose their load at once.
-const LEAST_COMPRESSION: f64 = 0.5;
+const MIN_COMPRESSION: f64 = 0.5;
 const ATTEMPTS: usize = 100;
 /// Strains of `equivalence` over (p/E*)^(2/3), and the largest.
 const EQUIVALENT: [f64; 4] = [0.3, -0.3, 1.0, 3.0];
@@ -186,7 +186,7 @@ fn mixed(random: &mut Random, steps: &Steps) -> Vec<Strain> {
     for segment in 0..SEGMENTS {
         let length = steps.strain * random.uniform(LENGTHS[0], LENGTHS[1]);
         let compressed =
-            |along: &Strain| compression + length * along.compression() >= LEAST_COMPRESSION * steps.strain;
+            |along: &Strain| compression + length * along.compression() >= MIN_COMPRESSION * steps.strain;
         let along = (0..ATTEMPTS).map(|_| any_direction(random)).find(compressed);
         let along = along.unwrap_or(Strain::isotropic(-1.0));
         compression += length * along.compression();

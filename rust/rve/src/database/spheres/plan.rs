@@ -5,7 +5,7 @@ use super::paths::{Planned, Steps, planned};
 use crate::database::DatabaseError;
 use crate::database::seed::packing_seed;
 use crate::spheres::Preparation;
-use crate::spheres::prepare::{MOST_FRICTION, PACKED_PRESSURES, SHAKING, SPHERES};
+use crate::spheres::prepare::{MAX_FRICTION, PACKED_PRESSURES, SHAKING, SPHERES};
 use serde::{Deserialize, Serialize};
 
 /// Sizes that increments and whole paths may have \[-\].
@@ -16,7 +16,7 @@ const RESTITUTIONS: [f64; 2] = [0.001, 1.0];
 /// Times that a path may go there and back.
 const CYCLES: [u32; 2] = [1, 1000];
 /// A plan with more packings is taken as a typing error: it would compute for months.
-const MOST_PACKINGS: u64 = 1_000_000;
+const MAX_PACKINGS: u64 = 1_000_000;
 
 /// A plan: blocks of packings, each of which follows paths.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -24,7 +24,7 @@ const MOST_PACKINGS: u64 = 1_000_000;
 pub struct SpherePlan {
     /// Number from which the random places of all packings and their random paths follow. Allowed: whole number from 0.
     pub seed: u64,
-    /// Friction of the spheres on the paths. Allowed: 0 to `MOST_FRICTION`.
+    /// Friction of the spheres on the paths. Allowed: 0 to `MAX_FRICTION`.
     #[serde(default = "usual_friction")]
     pub friction: f64,
     /// Poisson's ratio ν. Allowed: `POISSON_RATIOS`.
@@ -130,7 +130,7 @@ impl SphereJob {
 
 impl SpherePlan {
     /// Whether the text of a plan has blocks of spheres.
-    pub fn is_meant(text: &str) -> bool {
+    pub fn has_sphere_schema(text: &str) -> bool {
         text.parse::<toml::Table>().is_ok_and(|table| table.contains_key("spheres"))
     }
 
@@ -147,8 +147,8 @@ impl SpherePlan {
     }
 
     fn check(&self) -> Result<(), String> {
-        if !(0.0..=MOST_FRICTION).contains(&self.friction) {
-            return Err(format!("friction: {}, allowed: 0 to {MOST_FRICTION}", self.friction));
+        if !(0.0..=MAX_FRICTION).contains(&self.friction) {
+            return Err(format!("friction: {}, allowed: 0 to {MAX_FRICTION}", self.friction));
         }
         for (key, value, [least, most]) in [
             ("poisson_ratio", self.poisson_ratio, POISSON_RATIOS),
@@ -166,8 +166,8 @@ impl SpherePlan {
         }
         let packings = self.spheres.iter().map(|block| block.count(self.friction));
         let packings = packings.fold(0, u64::saturating_add);
-        match packings > MOST_PACKINGS {
-            true => Err(format!("{packings} packings, allowed: {MOST_PACKINGS}")),
+        match packings > MAX_PACKINGS {
+            true => Err(format!("{packings} packings, allowed: {MAX_PACKINGS}")),
             false => Ok(()),
         }
     }
@@ -295,7 +295,10 @@ mod tests {
         let seeds: std::collections::BTreeSet<u64> = jobs.iter().map(|job| job.preparation.seed).collect();
         assert_eq!(seeds.len(), 16);
         assert_eq!(plan.rows(), jobs.iter().map(|job| job.rows().len()).sum::<usize>());
-        assert!(SpherePlan::is_meant(PLAN) && !SpherePlan::is_meant("seed = 5\n[[paths]]\ndiscs = 3\n"));
+        assert!(
+            SpherePlan::has_sphere_schema(PLAN)
+                && !SpherePlan::has_sphere_schema("seed = 5\n[[paths]]\ndiscs = 3\n")
+        );
         assert_eq!(jobs[0].preparation.friction, 0.3);
     }
 

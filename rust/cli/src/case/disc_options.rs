@@ -1,0 +1,164 @@
+//! The user's choices for the grains of a new case: options, and questions about everything that is not given as one.
+
+use super::prompts::{Prompter, number};
+use crate::error::CliError;
+use clap::Args;
+use msdd_case::grains::{Grains, Preset, check_value, preset};
+use msdd_case::numbers::plain;
+
+#[derive(Args)]
+pub struct GrainWishes {
+    /// Material of the grains (values and sources: `msdd case new --list-materials`). The options below replace single values
+    /// of it. Allowed: `paper`, `steel`, `glass`, `alumina`; with --spheres `steel`, `glass`, `alumina`,
+    /// `lithium-orthosilicate`. Default: `paper`, of spheres `steel`.
+    #[arg(long, value_name = "NAME", help_heading = "Grains")]
+    material: Option<String>,
+    /// Density of the grains [kg/m3]. Allowed: 1e-12 to 1e15. Default: from the material.
+    #[arg(long, value_name = "KG/M3", help_heading = "Grains")]
+    density: Option<f64>,
+    /// Young's modulus of the grains [Pa]. Allowed: 1e-12 to 1e15. Default: from the material.
+    #[arg(long, value_name = "PA", help_heading = "Grains")]
+    young_modulus: Option<f64>,
+    /// Thermal conductivity of the grains [W/(m K)]. Allowed: 1e-12 to 1e15. Default: from the material.
+    #[arg(long, value_name = "W/(M K)", help_heading = "Grains")]
+    thermal_conductivity: Option<f64>,
+    /// Specific heat capacity of the grains [J/(kg K)]. Allowed: 1e-12 to 1e15. Default: from the material.
+    #[arg(long, value_name = "J/(KG K)", help_heading = "Grains")]
+    heat_capacity: Option<f64>,
+    /// Linear thermal expansion coefficient of the grains [1/K]. Allowed: 0 to 1. Default: from the material.
+    #[arg(long, value_name = "1/K", help_heading = "Grains")]
+    thermal_expansion: Option<f64>,
+    /// Mean radius of the grains [m]. The radii of discs are uniformly distributed between 0.6 and 1.4 times this value;
+    /// spheres are equal. Allowed: 1e-12 to 1e15. Default: from the material.
+    #[arg(long, value_name = "M", help_heading = "Grains")]
+    mean_radius: Option<f64>,
+    /// Mean diameter of the grains [m], instead of the radius. Allowed: 2e-12 to 2e15.
+    #[arg(long, value_name = "M", conflicts_with = "mean_radius", help_heading = "Grains")]
+    diameter: Option<f64>,
+    /// Only to say where it belongs.
+    #[arg(long, value_name = "MU", hide = true)]
+    friction: Option<String>,
+}
+
+impl GrainWishes {
+    /// Refuses options that are no properties of the grains of a case, and says where they belong.
+    ///
+    /// # Errors
+    /// [`CliError::Message`].
+    pub fn refuse_foreign(&self) -> Result<(), CliError> {
+        let Some(value) = &self.friction else { return Ok(()) };
+        Err(CliError::Message(format!(
+            "--friction = {value}, allowed: none. The friction of the grains belongs to the model: 0.3 for spheres, tan(0.5 rad) \
+             for discs, or that of a model of discs that 'msdd train' made (--model FILE); the friction of walls is --wall-friction"
+        )))
+    }
+
+    /// \[m\]
+    fn given_radius(&self) -> Option<f64> {
+        self.mean_radius.or(self.diameter.map(|diameter| 0.5 * diameter))
+    }
+
+    /// The named material of `presets` that was chosen first, the name of the material as changed by the user, and the grains.
+    pub fn ask(
+        &self,
+        prompter: &Prompter,
+        presets: &[&'static Preset],
+    ) -> Result<(&'static Preset, String, Grains), CliError> {
+        let base = match &self.material {
+            Some(name) => preset(presets, name)?,
+            None => {
+                let list: Vec<String> =
+                    presets.iter().map(|one| format!("  {:8} {}", one.name, one.about)).collect();
+                let help = format!("Material of the grains:\n{}", list.join("\n"));
+                let names: Vec<&str> = presets.iter().map(|one| one.name).collect();
+                let read = |text: &str| preset(presets, text).map_err(|_| names.join(", "));
+                prompter.value(None, &help, "Material", presets[0].name, read)?
+            }
+        };
+        let own = Grains {
+            density: self.density.unwrap_or(base.grains.density),
+            young_modulus: self.young_modulus.unwrap_or(base.grains.young_modulus),
+            thermal_conductivity: self.thermal_conductivity.unwrap_or(base.grains.thermal_conductivity),
+            heat_capacity: self.heat_capacity.unwrap_or(base.grains.heat_capacity),
+            thermal_expansion: self.thermal_expansion.unwrap_or(base.grains.thermal_expansion),
+            mean_radius: self.given_radius().unwrap_or(base.grains.mean_radius),
+        };
+        let change = prompter.interactive
+            && prompter.value(
+                None,
+                "The material has a density, Young's modulus, thermal conductivity, heat capacity, thermal expansion and mean \
+                 radius of its own. Each may be changed.",
+                "Change some of them (yes or no)",
+                "no",
+                yes_or_no,
+            )?;
+        let asked = if change { self.ask_values(prompter, own)? } else { own };
+        asked.check()?;
+        let material = if asked == base.grains {
+            format!("{}: {}", base.name, base.about)
+        } else {
+            let changed = asked.named().into_iter().zip(base.grains.named()).filter(|(a, b)| a.1 != b.1);
+            let names: Vec<&str> = changed.map(|(a, _)| a.0).collect();
+            match names.len() {
+                6 => "grains of your own".to_string(),
+                _ => format!("{} ({}), with {} of your own", base.name, base.about, names.join(", ")),
+            }
+        };
+        Ok((base, material, asked))
+    }
+
+    /// Asks for the values of the material that are not given as options.
+    fn ask_values(&self, prompter: &Prompter, from: Grains) -> Result<Grains, CliError> {
+        let given = [
+            self.density,
+            self.young_modulus,
+            self.thermal_conductivity,
+            self.heat_capacity,
+            self.thermal_expansion,
+            self.given_radius(),
+        ];
+        let questions = [
+            ("The density of a grain, not that of the bed.", "Density [kg/m3]"),
+            (
+                "How stiff contacts are. The force between discs is Young's modulus times mean radius times overlap; that between \
+                 spheres follows Hertz.",
+                "Young's modulus [Pa]",
+            ),
+            ("The thermal conductivity of a grain, not that of the bed.", "Thermal conductivity [W/(m K)]"),
+            ("The specific heat capacity of a grain.", "Specific heat capacity [J/(kg K)]"),
+            (
+                "The linear thermal expansion coefficient. Of discs, times the change of temperature, it should stay below 0.05.",
+                "Thermal expansion [1/K]",
+            ),
+            (
+                "The mean radius. Radii of discs are uniform between 0.6 and 1.4 times it; spheres are equal.",
+                "Mean radius [m]",
+            ),
+        ];
+        let names = from.named();
+        let mut values = names.map(|(_, value, _)| value);
+        for (k, (given, (help, question))) in given.into_iter().zip(questions).enumerate() {
+            let (key, proposal, unit) = names[k];
+            let read = prompter.within(number, |&value| check_value((key, value, unit)));
+            values[k] = prompter.value(given, help, question, &plain(proposal), read)?;
+        }
+        let [density, young_modulus, thermal_conductivity, heat_capacity, thermal_expansion, mean_radius] =
+            values;
+        Ok(Grains {
+            density,
+            young_modulus,
+            thermal_conductivity,
+            heat_capacity,
+            thermal_expansion,
+            mean_radius,
+        })
+    }
+}
+
+fn yes_or_no(text: &str) -> Result<bool, String> {
+    match text {
+        "yes" | "y" => Ok(true),
+        "no" | "n" => Ok(false),
+        _ => Err("yes, no".to_string()),
+    }
+}
