@@ -184,7 +184,7 @@ static void renameFormer(dictionary& dict)
             );
             renamed->keyword() = names[1];
             dict.remove(names[0]);
-            dict.add(renamed.ptr());
+            dict.add(renamed.ptr(), true);
         }
     }
     for (const entry& each : static_cast<const dictionary&>(dict))
