@@ -37,7 +37,7 @@ int main(int argc, char **argv)
     const msdd_material material = {sizeof material, 100, 1e7, 5e-3};
 
     if (argc != 2) return 2;
-    snprintf(path, sizeof path, "%s/example.msdd", argv[1]);
+    snprintf(path, sizeof path, "%s/example", argv[1]);
     snprintf(csv, sizeof csv, "%s/example.csv", argv[1]);
     if (msdd_database_generate(plan, path, 1, progress, &stop) != MSDD_CANCELLED) return 1;
     stop = 0;

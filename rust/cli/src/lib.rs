@@ -33,8 +33,8 @@ const VERSION: &str = concat!(env!("CARGO_PKG_VERSION"), " (commit ", env!("MSDD
 
 const AFTER_HELP: &str = "\
 From a database to results:
-  msdd database generate --plan cases/database/quick.toml --out results/quick.msdd
-  msdd train --database results/quick.msdd --out results/model.json
+  msdd database generate --plan cases/database/quick.toml --out results/quick
+  msdd train --database results/quick --out results/model.json
 then name the model in a case's constant/granularProperties, run msddFoam, and
   msdd summary --cases cases --out results/summary.json --plot results/temperature.svg";
 

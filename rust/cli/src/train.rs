@@ -1,6 +1,5 @@
 //! `msdd train`.
 
-use crate::database::warn_without_checksum;
 use crate::error::CliError;
 use crate::rows::training_data;
 use crate::score;
@@ -50,7 +49,6 @@ pub struct Arguments {
 
 pub fn run(arguments: &Arguments) -> Result<(), CliError> {
     check_target(&arguments.out)?;
-    warn_without_checksum(&arguments.database)?;
     if arguments.model == spheres::KIND {
         return spheres::train_and_write(&spheres::Training {
             database: &arguments.database,

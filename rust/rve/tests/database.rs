@@ -1,7 +1,7 @@
 //! Generation, storage, continuation, shards and export of small databases.
 
 use msdd_rve::database::{
-    DatabaseError, Kind, Plan, RampName, Run, check, export_csv, generate, merge, read, record::COLUMNS,
+    DatabaseError, Kind, Plan, RampName, Run, check, export_csv, generate, inspect, read, record::COLUMNS,
     table::Row,
 };
 use std::ops::ControlFlow;
@@ -33,12 +33,11 @@ fn make(plan: &Plan, path: &Path, threads: usize) {
     generate(plan, path, &Run { threads, ..Run::default() }, |_| ControlFlow::Continue(())).unwrap();
 }
 
-fn execute(path: &Path, statement: &str) {
-    rusqlite::Connection::open(path).unwrap().execute_batch(statement).unwrap();
-}
-
-fn bytes(path: &Path) -> Vec<u8> {
-    std::fs::read(path).unwrap()
+/// Names and contents of the files of a database, or of one file.
+fn bytes(path: &Path) -> Vec<(String, Vec<u8>)> {
+    let files = if path.is_dir() { msdd_files::list(path).unwrap() } else { vec![path.to_path_buf()] };
+    let name = |file: &PathBuf| file.file_name().unwrap().to_string_lossy().into_owned();
+    files.iter().map(|file| (name(file), std::fs::read(file).unwrap())).collect()
 }
 
 #[test]
@@ -50,7 +49,7 @@ fn rows_do_not_depend_on_threads_and_csv_reads_back() {
         make(&plan(), &database, threads);
         assert_eq!(export_csv(&database, &csv, None).unwrap(), ROWS);
         assert_eq!(read(&database).unwrap(), read(&csv).unwrap());
-        bytes(&csv)
+        std::fs::read(&csv).unwrap()
     };
     assert_eq!(csv(1, "csv"), csv(3, "csv"));
     assert!(csv(1, "csv.gz").len() * 2 < csv(1, "csv").len());
@@ -115,10 +114,12 @@ fn a_stopped_run_resumes_to_the_same_bytes_and_another_plan_is_refused() {
     let (whole, halved) = (folder.join("whole.msdd"), folder.join("halved.msdd"));
     make(&plan(), &whole, 2);
     let run = Run { threads: 2, ..Run::default() };
-    // What a killed run leaves: some packings, in the order in which they were made, and no mark of completion.
+    // What a killed run leaves: some packings.
     let third = |done: usize| if done < 3 { ControlFlow::Continue(()) } else { ControlFlow::Break(()) };
     generate(&plan(), &halved, &run, |progress| third(progress.done)).unwrap();
-    assert!(read(&halved).unwrap().has_checksum());
+    let unfinished = read(&halved).unwrap_err().to_string();
+    assert!(unfinished.contains("4 of 7 packings are missing: "), "{unfinished}");
+    assert!(inspect::<msdd_rve::database::Record>(&halved).unwrap().records.len() < ROWS);
     let mut seen = Vec::new();
     generate(&plan(), &halved, &run, |progress| {
         seen.push(progress.done);
@@ -133,41 +134,32 @@ fn a_stopped_run_resumes_to_the_same_bytes_and_another_plan_is_refused() {
     let other = Plan::parse(&PLAN.replace("seed = 3", "seed = 4"), "plan").unwrap();
     let error = generate(&other, &whole, &run, |_| ControlFlow::Continue(())).unwrap_err();
     assert!(matches!(&error, DatabaseError::Mismatch { key: "plan_hash", .. }), "{error}");
-    let shard = Run { shard: "1/2".parse().unwrap(), ..Run::default() };
-    let error = generate(&plan(), &whole, &shard, |_| ControlFlow::Continue(())).unwrap_err();
-    assert!(matches!(&error, DatabaseError::Mismatch { key: "shard", .. }), "{error}");
 }
 
 #[test]
-fn shards_merge_to_the_bytes_of_one_process_and_gaps_and_duplicates_are_found() {
+fn shards_in_one_folder_make_the_files_of_one_process() {
     let folder = folder("shards");
-    let shard = |text: &str| {
-        let path = folder.join(format!("{}.msdd", text.replace('/', "-")));
-        let run = Run { shard: text.parse().unwrap(), threads: 1, commit: text.replace('/', "of") };
-        generate(&plan(), &path, &run, |_| ControlFlow::Continue(())).unwrap();
-        path
-    };
-    let shards = ["1/3", "2/3", "3/3"].map(shard);
-    let (whole, merged) = (folder.join("whole.msdd"), folder.join("merged.msdd"));
-    let run = Run { commit: "1of3, 2of3, 3of3".to_string(), ..Run::default() };
-    generate(&plan(), &whole, &run, |_| ControlFlow::Continue(())).unwrap();
-    let [a, b, c] = shards.clone();
-    assert_eq!(merge(&[c, a, b], &merged).unwrap(), ROWS);
-    assert_eq!(bytes(&whole), bytes(&merged));
-
-    let error = |shards: &[PathBuf]| merge(shards, &folder.join("bad.msdd")).unwrap_err().to_string();
-    let gap = error(&shards[..2]);
-    assert!(gap.contains("2 of 7 packings are missing: 2, 5"), "{gap}");
-    let twice = error(&[shards[0].clone(), shards[1].clone(), whole.clone()]);
-    assert!(twice.contains("whole.msdd: packing 0 stands in") && twice.contains("1-3.msdd too"), "{twice}");
-    execute(&shards[2], "DELETE FROM states WHERE packing = 5 AND ramp = 'wall_shear'");
-    let damaged = error(&shards);
-    assert!(damaged.contains("3-3.msdd: is damaged: its rows are not what was written"), "{damaged}");
-    // The same file without checksums, as an older program would have written it.
-    execute(&shards[2], "DELETE FROM provenance WHERE key LIKE '%_sha256'");
-    let hole = error(&shards);
-    assert!(hole.contains("3-3.msdd: packing 5 has not the rows of the plan"), "{hole}");
-    assert!(!folder.join("bad.msdd").exists());
+    let (whole, parts) = (folder.join("whole"), folder.join("parts"));
+    make(&plan(), &whole, 2);
+    std::thread::scope(|scope| {
+        for shard in ["1/3", "2/3", "3/3"] {
+            let run = Run { shard: shard.parse().unwrap(), threads: 1, ..Run::default() };
+            let parts = &parts;
+            scope.spawn(move || generate(&plan(), parts, &run, |_| ControlFlow::Continue(())).unwrap());
+        }
+    });
+    assert_eq!(bytes(&whole), bytes(&parts));
+    // What is missing is made again, whatever the parts.
+    std::fs::remove_file(parts.join("packing-000005.csv.gz")).unwrap();
+    make(&plan(), &parts, 1);
+    assert_eq!(bytes(&whole), bytes(&parts));
+    // A packing under the name of another one.
+    std::fs::rename(parts.join("packing-000005.csv.gz"), parts.join("packing-000006.csv.gz")).unwrap();
+    let error = read(&parts).unwrap_err().to_string();
+    assert!(
+        error.contains("packing-000006.csv.gz: not an msdd database (it has a row of packing 5"),
+        "{error}"
+    );
 }
 
 /// The rows of a path by what stands in them; a row further on starts from the last that is no probe.
@@ -276,4 +268,17 @@ fn what_is_no_database_is_refused_with_its_name() {
     let path = folder("wrong").join("wrong.csv");
     std::fs::write(&path, "a,b\n1,2\n").unwrap();
     assert!(read(&path).unwrap_err().to_string().contains("wrong.csv"));
+    // A folder of other things is neither read nor written to; nor is a database of version 0.2, one SQLite file.
+    let other = path.parent().unwrap();
+    assert!(read(other).unwrap_err().to_string().contains("there is no provenance.json in it"));
+    let error = generate(&plan(), other, &Run::default(), |_| ControlFlow::Continue(())).unwrap_err();
+    assert!(error.to_string().contains("it has files, but no provenance.json"), "{error}");
+    assert_eq!(msdd_files::list(other).unwrap().len(), 1);
+    let old = other.join("old.msdd");
+    std::fs::write(&old, b"SQLite format 3\0 and more").unwrap();
+    let error = read(&old).unwrap_err().to_string();
+    assert!(error.contains("an SQLite file of version 0.2; export it as CSV by that version"), "{error}");
+    let error =
+        generate(&plan(), &old, &Run::default(), |_| ControlFlow::Continue(())).unwrap_err().to_string();
+    assert!(error.contains("an SQLite file of version 0.2"), "{error}");
 }

@@ -39,8 +39,18 @@ fn walls_and_stress_stand_where_the_solver_looks_for_them() {
         (&vessel, "0/stress", "uniform", false),
         (&vessel, GRAINS, "restStress", true),
         (&rough, GRAINS, "side     { type rigid; friction 0.154; slip 6.4e-6; }", true),
-        (&rough, GRAINS, "bottom   { type rigid; friction 0.154; slip 6.4e-6; slackLayer 1; slackRecovery 0.1; }", true),
-        (&rough, GRAINS, "top      { type rigid; friction 0.154; slip 6.4e-6; slackLayer 1; slackRecovery 0.1; }", true),
+        (
+            &rough,
+            GRAINS,
+            "bottom   { type rigid; friction 0.154; slip 6.4e-6; slackLayer 1; slackRecovery 0.1; }",
+            true,
+        ),
+        (
+            &rough,
+            GRAINS,
+            "top      { type rigid; friction 0.154; slip 6.4e-6; slackLayer 1; slackRecovery 0.1; }",
+            true,
+        ),
         (&rough, GRAINS, "inner    { type frictionless; }", true),
         // Walls bear a part of the weight, so the bed does not begin at rest.
         (&rough, GRAINS, "restStress", false),

@@ -4,11 +4,11 @@ mod files;
 pub(crate) mod foam;
 mod from_case;
 pub(crate) mod geometry;
-mod slack;
 mod law;
 mod moving;
 mod plot;
 mod results;
+mod slack;
 pub(crate) mod start;
 mod table;
 

@@ -7,9 +7,6 @@ use msdd_rve::database::spheres::check::TwinDifference;
 use msdd_rve::database::{Dataset, Grains, Record, SphereRecord, Violation, grains, inspect, spheres};
 use std::path::{Path, PathBuf};
 
-/// Note on a file of an older program, which is accepted.
-const NO_CHECKSUMS: &str =
-    "there are none, so damage that violates no exact law is not noticed; msdd database seal adds them";
 /// Largest number of violations that are printed one by one.
 const PRINTED: usize = 20;
 
@@ -24,40 +21,30 @@ pub fn run(arguments: &Arguments) -> Result<(), CliError> {
     let path = &arguments.database;
     match grains(path)? {
         Grains::Discs => {
-            let (dataset, damage) = inspect::<Record>(path)?;
+            let dataset = inspect::<Record>(path)?;
             let report = check(&dataset);
             print(&report);
-            verdict(path, &dataset, &report.violations, &damage)
+            verdict(path, &dataset, &report.violations)
         }
         Grains::Spheres => {
-            let (dataset, damage) = inspect::<SphereRecord>(path)?;
+            let dataset = inspect::<SphereRecord>(path)?;
             let report = spheres::check::check(&dataset);
             print_symmetry(&report.symmetry);
             print_twins(&report.twins);
-            verdict(path, &dataset, &report.violations, &damage)
+            verdict(path, &dataset, &report.violations)
         }
     }
 }
 
-/// Prints violated laws and damage, which are an error.
-fn verdict<R>(
-    path: &Path,
-    dataset: &Dataset<R>,
-    violations: &[Violation],
-    damage: &[String],
-) -> Result<(), CliError> {
+/// Prints violated laws, which are an error.
+fn verdict<R>(path: &Path, dataset: &Dataset<R>, violations: &[Violation]) -> Result<(), CliError> {
     let (file, count) = (path.display(), violations.len());
     for violation in violations.iter().take(PRINTED) {
         note!("violated: {violation}");
     }
-    for problem in damage {
-        note!("damaged: {problem}");
+    if count > 0 {
+        return Err(CliError::Message(format!("{file}: {count} violations of exact laws")));
     }
-    if count > 0 || !damage.is_empty() {
-        let damaged = if damage.is_empty() { "" } else { "is damaged: a checksum does not agree; " };
-        return Err(CliError::Message(format!("{file}: {damaged}{count} violations of exact laws")));
-    }
-    outln!("checksums: {}", if dataset.has_checksum() { "agree" } else { NO_CHECKSUMS });
     outln!("exact laws: hold on all {} rows", dataset.records.len());
     Ok(())
 }

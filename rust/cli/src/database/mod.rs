@@ -2,11 +2,7 @@
 
 mod check;
 mod plot;
-mod slurm;
 mod timing;
-mod warning;
-
-pub use warning::warn_without_checksum;
 
 use crate::error::CliError;
 use crate::progress::Progress;
@@ -14,8 +10,8 @@ use crate::simd::SimdArgument;
 use clap::{Args, Subcommand};
 use msdd_files::{check_target, read_text, write};
 use msdd_rve::database::{
-    Effort, Grains, Offenders, Plan, Recipe, Run, Shard, SpherePlan, export_csv, generate, grains, merge,
-    read, read_spheres, seal,
+    Effort, Grains, Offenders, Plan, Recipe, Record, Run, Shard, SpherePlan, SphereRecord, export_csv,
+    generate, grains, inspect,
 };
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
@@ -26,18 +22,11 @@ use std::time::Instant;
 pub enum Command {
     /// Generate the RVEs of a plan, or continue where an earlier run stopped.
     Generate(GenerateArguments),
-    /// Generate a plan on a cluster: submit its parts (shards) to Slurm as an array of jobs, and a job that joins them; or go
-    /// on, submit again what is missing, and say how far all parts are.
-    Slurm(slurm::Arguments),
-    /// Join the parts (shards) of a plan to the database that a single process would have generated, byte for byte.
-    Merge(MergeArguments),
     /// Write a database as CSV, with FILE.columns.csv (units, meaning) and FILE.provenance.json.
     Export(ExportArguments),
-    /// Check the checksums, and laws that hold exactly for every row; print symmetry, size effects and scatter between
-    /// packings. The exit status is 1 when a checksum does not agree or a law is violated.
+    /// Check laws that hold exactly for every row; print symmetry, size effects and scatter between packings. The exit status
+    /// is 1 if a law is violated.
     Check(check::Arguments),
-    /// Add checksums to a database or CSV of an older program, if all exact laws hold for its rows.
-    Seal(SealArguments),
     /// Write a plan for RVEs around states of a solver's run that were outside of the model's trained range.
     Plan(PlanArguments),
     /// Draw the inputs with their convex hulls, and K and sigma against porosity.
@@ -45,17 +34,24 @@ pub enum Command {
 }
 
 #[derive(Args)]
+#[command(after_help = "Example:
+  msdd database generate --plan cases/database/quick.toml --out results/quick
+
+On a cluster, as an array of 16 jobs of Slurm (a job that failed is submitted again in the same way):
+  sbatch --array=1-16 --wrap 'msdd database generate --plan p.toml --out db --threads 1 --shard $SLURM_ARRAY_TASK_ID/16'")]
 pub struct GenerateArguments {
     /// The plan (TOML), which says what to generate; see cases/database.
     #[arg(long, value_name = "FILE")]
     plan: PathBuf,
-    /// The database (SQLite); an existing one of the same plan is completed, so a killed run goes on.
-    #[arg(long, value_name = "FILE")]
+    /// Folder of the database, with a file for each packing; an existing one of the same plan is completed, so a killed run
+    /// goes on.
+    #[arg(long, value_name = "DIR")]
     out: PathBuf,
     /// Number of threads; the rows do not depend on it. Default: all processor cores.
     #[arg(long, value_parser = crate::threads::parser())]
     threads: Option<u32>,
-    /// Generate one part of the plan, such as 3/16 for the third of 16; `msdd database merge` joins the parts.
+    /// Generate one part of the plan, such as 3/16 for the third of 16. All parts may be generated at once, by several
+    /// processes or machines, in the same folder.
     #[arg(long, value_name = "NUMBER/COUNT", default_value_t)]
     shard: Shard,
     /// Commit of this program, for the provenance; default: the one it was built from.
@@ -92,26 +88,9 @@ pub struct PlanArguments {
 }
 
 #[derive(Args)]
-pub struct MergeArguments {
-    /// The databases of all shards.
-    #[arg(value_name = "DATABASE", required = true)]
-    shards: Vec<PathBuf>,
-    /// The database to write.
-    #[arg(long, value_name = "FILE")]
-    out: PathBuf,
-}
-
-#[derive(Args)]
-pub struct SealArguments {
-    /// Database, or the CSV that was exported from one; of a CSV only FILE.provenance.json is changed.
-    #[arg(value_name = "FILE")]
-    database: PathBuf,
-}
-
-#[derive(Args)]
 pub struct ExportArguments {
     /// The database.
-    #[arg(value_name = "FILE")]
+    #[arg(value_name = "DIR")]
     database: PathBuf,
     /// The CSV file; compressed when it ends in .gz.
     #[arg(long, value_name = "FILE")]
@@ -124,25 +103,12 @@ pub struct ExportArguments {
 pub fn run(command: &Command) -> Result<(), CliError> {
     match command {
         Command::Generate(arguments) => make(arguments),
-        Command::Slurm(arguments) => slurm::run(arguments),
-        Command::Merge(arguments) => {
-            warn_without_checksum(&arguments.shards)?;
-            let rows = merge(&arguments.shards, &arguments.out)?;
-            outln!("{rows} rows in {}", arguments.out.display());
-            Ok(())
-        }
         Command::Export(arguments) => {
-            warn_without_checksum([&arguments.database])?;
             let rows = export_csv(&arguments.database, &arguments.out, arguments.digits.map(usize::from))?;
             outln!("{rows} rows in {}", arguments.out.display());
             Ok(())
         }
         Command::Check(arguments) => check::run(arguments),
-        Command::Seal(arguments) => {
-            let rows = seal(&arguments.database)?;
-            outln!("{rows} rows sealed in {}", arguments.database.display());
-            Ok(())
-        }
         Command::Plan(arguments) => plan(arguments),
         Command::Plot(arguments) => plot::run(arguments),
     }
@@ -202,10 +168,14 @@ fn make_rows<P: Recipe>(arguments: &GenerateArguments, plan: &P) -> Result<(), C
 /// Prints the number of rows by outcome, and how long each part of the work took.
 fn report(arguments: &GenerateArguments, timing: &timing::Timing) -> Result<(), CliError> {
     let outcomes: Vec<String> = match grains(&arguments.out)? {
-        Grains::Discs => read(&arguments.out)?.records.into_iter().map(|record| record.outcome).collect(),
-        Grains::Spheres => {
-            read_spheres(&arguments.out)?.records.into_iter().map(|record| record.outcome).collect()
+        Grains::Discs => {
+            inspect::<Record>(&arguments.out)?.records.into_iter().map(|record| record.outcome).collect()
         }
+        Grains::Spheres => inspect::<SphereRecord>(&arguments.out)?
+            .records
+            .into_iter()
+            .map(|record| record.outcome)
+            .collect(),
     };
     let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
     for outcome in &outcomes {

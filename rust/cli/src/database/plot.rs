@@ -1,6 +1,5 @@
 //! `msdd database plot`: the inputs with their convex hulls (Fig. 4 of the paper), and outputs against porosity, as SVG.
 
-use super::warning::warn_without_checksum;
 use crate::error::CliError;
 use clap::Args;
 use msdd_files::write;
@@ -48,7 +47,6 @@ struct Panel {
 }
 
 pub fn run(arguments: &Arguments) -> Result<(), CliError> {
-    warn_without_checksum([&arguments.database])?;
     let points = points(&read(&arguments.database)?.records);
     if points.is_empty() {
         let file = arguments.database.display();

@@ -2,7 +2,6 @@
 
 mod plot;
 
-use crate::database::warn_without_checksum;
 use crate::error::CliError;
 use crate::rows::training_data;
 use crate::spheres;
@@ -39,7 +38,6 @@ pub struct Arguments {
 
 pub fn run(arguments: &Arguments) -> Result<(), CliError> {
     arguments.json.iter().try_for_each(|json| check_target(json))?;
-    warn_without_checksum(&arguments.database)?;
     if spheres::is_model(&arguments.model[0])? {
         return spheres::score_models(&arguments.model, &arguments.database, arguments.json.as_deref());
     }

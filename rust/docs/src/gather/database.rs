@@ -28,21 +28,13 @@ pub fn section(root: &Path) -> Result<Section, DocsError> {
         let count = line("exact laws: hold on all")
             .and_then(|rest| rest.split_whitespace().next()?.parse::<f64>().ok());
         let count = grouped(count.ok_or_else(|| missing("exact laws: hold on all … rows"))?);
-        let checksums = line("checksums:").ok_or_else(|| missing("checksums:"))?.to_string();
         let provenance = Json::read(root, &format!("cases/database/{name}.provenance.json"))?;
         let commit: String = provenance.text("/commit")?.chars().take(7).collect();
         let meaning = format!("states in the database of {words}");
         section.number(&format!("{name}.rows"), count.clone(), "1", &meaning, "msdd database check");
-        rows.push(vec![
-            format!("`cases/database/{name}.csv.gz`"),
-            words.to_string(),
-            count,
-            checksums,
-            commit,
-        ]);
+        rows.push(vec![format!("`cases/database/{name}.csv.gz`"), words.to_string(), count, commit]);
     }
-    let columns =
-        ["database", "what", "states, all of which pass the exact laws", "checksums", "made with commit"];
+    let columns = ["database", "what", "states, all of which pass the exact laws", "made with commit"];
     section.add_table(
         "databases",
         "the committed databases",

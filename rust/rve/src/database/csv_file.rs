@@ -1,19 +1,17 @@
-//! Reading CSV: all columns, each row once, with limits on the size.
+//! CSV: all columns, each row once, with limits on the size.
 
+use super::cell::Value;
+use super::provenance::{self, ABSENT, Provenance, SHA256, hash_of};
 use super::table::{Column, Row};
-use super::{DatabaseError, Dataset, checksum};
+use super::{DatabaseError, Dataset};
 use crate::message::shortened;
 use msdd_files::{FileError, MAX_BYTES};
-use rusqlite::types::ValueRef;
-use std::collections::{BTreeMap, BTreeSet};
-use std::io::{self, Read};
+use std::collections::BTreeSet;
+use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
 
 /// Longest line [bytes]. A row has about 700.
 const LONGEST_LINE: u64 = 1 << 20;
-
-/// Provenance key for files from before some columns existed: the names of these columns.
-pub(super) const ABSENT: &str = "absent_columns";
 
 /// Files that belong to a CSV, compressed or not: the column dictionary and the provenance.
 pub(super) fn beside(csv: &Path, what: &str) -> PathBuf {
@@ -25,59 +23,79 @@ pub(super) fn is_gzip_name(path: &Path) -> bool {
     path.extension().is_some_and(|extension| extension == "gz")
 }
 
-/// Rows and provenance, and a description of each part that differs from its checksum.
-pub(super) fn inspected<R: Row>(path: &Path) -> Result<(Dataset<R>, Vec<String>), DatabaseError> {
-    with_provenance(path, provenance(path)?)
+/// Rows and provenance.
+pub(super) fn read<R: Row>(path: &Path) -> Result<Dataset<R>, DatabaseError> {
+    let origin = beside(path, "provenance.json");
+    let provenance = provenance::read(&origin)?.ok_or_else(|| {
+        let problem = format!(
+            "there is no {} next to it, the file that says where the rows come from",
+            origin.display()
+        );
+        DatabaseError::Format { path: path.to_path_buf(), problem }
+    })?;
+    let records = rows(path, &provenance)?;
+    Ok(Dataset { records, provenance })
 }
 
-/// As [`inspected`], with a given provenance.
-pub(super) fn with_provenance<R: Row>(
-    path: &Path,
-    provenance: BTreeMap<String, String>,
-) -> Result<(Dataset<R>, Vec<String>), DatabaseError> {
-    let file =
-        std::fs::File::open(path).map_err(|source| FileError::Read { file: path.to_path_buf(), source })?;
+/// The rows of a file, whose text must have the hash of the provenance, if that names one.
+pub(super) fn rows<R: Row>(path: &Path, provenance: &Provenance) -> Result<Vec<R>, DatabaseError> {
     let absent: Vec<&str> = provenance.get(ABSENT).map_or("", String::as_str).split_whitespace().collect();
-    let records = records(path, file, &absent)?;
-    let dataset = Dataset { records, provenance };
-    let damage = checksum::damage(&dataset);
-    Ok((dataset, damage))
+    let file = open(path)?;
+    let Some(expected) = provenance.get(SHA256) else { return records(path, file, &absent) };
+    let mut text = Vec::new();
+    plain(path, file)?.read_to_end(&mut text).map_err(|error| csv_error(path)(error.into()))?;
+    if hash_of(provenance, &text) != *expected {
+        let problem = format!("it or its provenance is not what was written: {SHA256} does not agree");
+        return Err(DatabaseError::Damaged { path: path.to_path_buf(), problem });
+    }
+    records(path, text.as_slice(), &absent)
 }
 
-pub(super) fn provenance(csv: &Path) -> Result<BTreeMap<String, String>, DatabaseError> {
-    let origin = beside(csv, "provenance.json");
-    let text = match msdd_files::read_text(&origin) {
-        Err(FileError::Read { source, .. }) if source.kind() == io::ErrorKind::NotFound => {
-            let problem = format!(
-                "there is no {} beside it, the file that says where the rows come from",
-                origin.display()
-            );
-            return Err(DatabaseError::Format { path: csv.to_path_buf(), problem });
+fn open(path: &Path) -> Result<std::fs::File, DatabaseError> {
+    let failed = |source| FileError::Read { file: path.to_path_buf(), source };
+    // Only regular files: a pipe can be read only once, and a device has no end.
+    if !std::fs::metadata(path).map_err(failed)?.is_file() {
+        let problem = "it is no regular file".to_string();
+        return Err(DatabaseError::Format { path: path.to_path_buf(), problem });
+    }
+    Ok(std::fs::File::open(path).map_err(failed)?)
+}
+
+/// Rows as text: first the names of the columns; floats in the shortest form that reads back exactly.
+pub(super) fn text<R: Row>(path: &Path, records: &[R]) -> Result<Vec<u8>, DatabaseError> {
+    let mut rows = csv::Writer::from_writer(Vec::new());
+    records.iter().try_for_each(|record| rows.serialize(prepared(record, None))).map_err(csv_error(path))?;
+    finished(path, rows)
+}
+
+/// The bytes of a table.
+pub(super) fn finished(path: &Path, table: csv::Writer<Vec<u8>>) -> Result<Vec<u8>, DatabaseError> {
+    table.into_inner().map_err(|error| csv_error(path)(io::Error::other(error.to_string()).into()))
+}
+
+/// gzip without name or date in its header, so that the same text gives the same bytes.
+pub(super) fn compressed(path: &Path, text: &[u8]) -> Result<Vec<u8>, DatabaseError> {
+    let mut encoder = flate2::write::GzEncoder::new(Vec::new(), flate2::Compression::best());
+    encoder.write_all(text).and_then(|()| encoder.finish()).map_err(|error| csv_error(path)(error.into()))
+}
+
+/// The record as it is written: floats that are not finite are absent, -0 is 0, and floats have `digits` significant digits.
+pub(super) fn prepared<R: Row>(record: &R, digits: Option<usize>) -> R {
+    let mut fields = serde_json::json!(record);
+    for value in fields.as_object_mut().into_iter().flat_map(|map| map.values_mut()) {
+        if let Some(number) = value.as_f64().filter(|_| value.is_f64()) {
+            let rounded = digits.map(|digits| format!("{number:.*e}", digits.max(1) - 1).parse::<f64>());
+            *value = rounded
+                .map_or(Ok(number), |rounded| rounded)
+                .map_or(serde_json::Value::Null, |x| (x + 0.0).into());
         }
-        text => text?,
-    };
-    serde_json::from_str(&text).map_err(|error| {
-        let problem = format!("it is not the provenance file of a CSV: {}", shortened(&error.to_string()));
-        DatabaseError::Format { path: origin, problem }
-    })
+    }
+    serde_json::from_value(fields).unwrap_or_else(|_| record.clone())
 }
 
 /// The names of the columns of a plain or compressed CSV; none of what is no text of columns.
 pub(super) fn head(path: &Path) -> Result<Option<csv::ByteRecord>, DatabaseError> {
-    let file =
-        std::fs::File::open(path).map_err(|source| FileError::Read { file: path.to_path_buf(), source })?;
-    Ok(reader(path, file).ok().and_then(|mut reader| reader.byte_headers().ok().cloned()))
-}
-
-/// Names of columns that the file does not have, and that are not among those that any older file may lack.
-pub(super) fn missing<R: Row>(path: &Path) -> Result<Vec<&'static str>, DatabaseError> {
-    let file =
-        std::fs::File::open(path).map_err(|source| FileError::Read { file: path.to_path_buf(), source })?;
-    let mut reader = reader(path, file)?;
-    let head = reader.byte_headers().map_err(csv_error(path))?;
-    let absent = |name: &&str| !head.iter().any(|known| known == name.as_bytes());
-    let needed = R::COLUMNS.iter().map(|column| column.0).filter(|name| !R::later().contains(name));
-    Ok(needed.filter(absent).collect())
+    Ok(reader(path, open(path)?).ok().and_then(|mut reader| reader.byte_headers().ok().cloned()))
 }
 
 /// Reads rows from a plain or compressed text. `path` names the file in errors; the columns `absent` and those that files
@@ -119,8 +137,13 @@ fn csv_error(path: &Path) -> impl Fn(csv::Error) -> DatabaseError + use<> {
 /// The lines of a plain or compressed text.
 fn reader<'a>(
     path: &Path,
-    mut text: impl Read + 'a,
+    text: impl Read + 'a,
 ) -> Result<csv::Reader<Bounded<Box<dyn Read + 'a>>>, DatabaseError> {
+    Ok(csv::Reader::from_reader(plain(path, text)?))
+}
+
+/// A plain or compressed text, unpacked.
+fn plain<'a>(path: &Path, mut text: impl Read + 'a) -> Result<Bounded<Box<dyn Read + 'a>>, DatabaseError> {
     let mut start = Vec::new();
     let failed = csv_error(path);
     text.by_ref().take(2).read_to_end(&mut start).map_err(|error| failed(error.into()))?;
@@ -128,7 +151,7 @@ fn reader<'a>(
     let whole = io::Cursor::new(start).chain(text);
     let plain: Box<dyn Read + 'a> =
         if packed { Box::new(flate2::read::GzDecoder::new(whole)) } else { Box::new(whole) };
-    Ok(csv::Reader::from_reader(Bounded { text: plain, left: MAX_BYTES, line: 0 }))
+    Ok(Bounded { text: plain, left: MAX_BYTES, line: 0 })
 }
 
 /// The position of each column in the file.
@@ -146,29 +169,26 @@ fn columns<R: Row>(
     }
     let place = |column: &Column| {
         let found = head.iter().position(|name| name == column.0.as_bytes());
-        match found.is_some() || absent.contains(&column.0) || R::later().contains(&column.0) {
+        match found.is_some() || absent.contains(&column.0) || R::LATER.contains(&column.0) {
             true => Ok(found),
-            false => Err(problem(format!(
-                "column {} is missing; every column is needed, unless an older program wrote the rows and the file was sealed without it",
-                column.0
-            ))),
+            false => Err(problem(format!("column {} is missing; every column is needed", column.0))),
         }
     };
     R::COLUMNS.iter().map(place).collect()
 }
 
 /// Converts a field to a value of its column's type; an empty field is an absent value.
-fn cell<'a>(kind: &str, field: &'a [u8]) -> Result<ValueRef<'a>, String> {
+fn cell<'a>(kind: &str, field: &'a [u8]) -> Result<Value<'a>, String> {
     let number = |allowed: &str| {
         let found = shortened(&String::from_utf8_lossy(field));
         format!("'{found}', allowed: {allowed}")
     };
     let text = || std::str::from_utf8(field).unwrap_or_default();
     match (field, kind) {
-        ([], _) => Ok(ValueRef::Null),
-        (_, "INTEGER") => text().parse().map(ValueRef::Integer).map_err(|_| number("a whole number")),
-        (_, "REAL") => text().parse().map(ValueRef::Real).map_err(|_| number("a finite number")),
-        _ => Ok(ValueRef::Text(field)),
+        ([], _) => Ok(Value::Empty),
+        (_, "INTEGER") => text().parse().map(Value::Integer).map_err(|_| number("a whole number")),
+        (_, "REAL") => text().parse().map(Value::Real).map_err(|_| number("a finite number")),
+        _ => Ok(Value::Text(field)),
     }
 }
 

@@ -1,9 +1,8 @@
 //! Makes the rows of a plan on several threads. The rows depend on the plan alone.
 
 use super::recipe::Recipe;
-use super::store::Store;
 use super::table::Row;
-use super::{DatabaseError, Shard};
+use super::{DatabaseError, Shard, store};
 use crate::stopwatch::{self, Seconds};
 use std::ops::ControlFlow;
 use std::path::Path;
@@ -36,43 +35,40 @@ pub struct Progress {
     pub storing: f64,
 }
 
-/// Adds to the database at `path` all packings of the shard that it does not contain yet. Each packing is stored in one
-/// transaction as soon as it is made, so a killed run loses only the packings that it was working on. The most
-/// expensive packings are made first, so that at the end no thread is left alone with one of them; the finished file
-/// has them in plan order. `progress` is called after each packing, and may end the run there.
+/// Adds to the database in the folder `path` all packings of the shard that it does not contain yet. Each packing is stored
+/// as soon as it is made, so a killed run loses only the packings that it was working on. The most expensive packings are
+/// made first, so that at the end no thread is left alone with one of them. `progress` is called after each packing, and may
+/// end the run there.
 ///
 /// # Errors
-/// [`DatabaseError::File`] when another run is working on the file, before anything is made;
-/// [`DatabaseError::Mismatch`] when the file holds another plan or shard, or was made by another engine version;
-/// [`DatabaseError::Damaged`]; storage errors.
+/// [`DatabaseError::File`] when another run is working on this shard, before anything is made;
+/// [`DatabaseError::Mismatch`] when the folder holds another plan, or was made by another engine version; storage errors.
 pub fn generate<P: Recipe>(
     plan: &P,
     path: &Path,
     run: &Run,
     mut progress: impl FnMut(Progress) -> ControlFlow<()>,
 ) -> Result<Progress, DatabaseError> {
-    msdd_files::check_target(path)?;
-    if let Some(folder) = path.parent().filter(|folder| !folder.as_os_str().is_empty()) {
-        let failed = |source| msdd_files::FileError::Write { file: folder.to_path_buf(), source };
-        std::fs::create_dir_all(folder).map_err(failed)?;
+    if !store::is_folder(path)? {
+        msdd_files::check_target(path)?;
     }
-    // Two runs on the same file would make the same packings, and one would fail to store rows that are there already.
-    let _lock = msdd_files::Lock::take(path)?;
-    let mut store = Store::open_for(path, plan, run.shard, &run.commit)?;
-    let stored = store.packings()?;
+    store::open(path, plan, &run.commit)?;
+    // Two runs of the same shard would make the same packings.
+    let _lock =
+        msdd_files::Lock::take(&path.join(format!("shard-{}", run.shard.to_string().replace('/', "-of-"))))?;
+    let stored = store::packings(path)?;
     let packing = |job: &P::Job| P::packing(job).0;
     let mut todo: Vec<P::Job> = plan.jobs().into_iter().filter(|job| run.shard.holds(packing(job))).collect();
     let total = todo.len();
-    todo.retain(|job| !stored.contains(&packing(job)));
+    todo.retain(|job| !stored.contains_key(&packing(job)));
     todo.sort_by_key(|job| std::cmp::Reverse(P::cost(job)));
     let mut state = Progress { done: total - todo.len(), total, ..Progress::default() };
     if progress(state).is_break() {
         return Ok(state);
     }
-    let mut stopped = false;
     make(plan, &todo, run.threads, |records, seconds| {
         let begin = std::time::Instant::now();
-        store.insert(&records)?;
+        store::insert(path, &records)?;
         state.storing += begin.elapsed().as_secs_f64();
         state.done += 1;
         state.rows += records.len();
@@ -80,15 +76,8 @@ pub fn generate<P: Recipe>(
         for (sum, seconds) in state.seconds.iter_mut().zip(seconds) {
             *sum += seconds;
         }
-        stopped = progress(state).is_break();
-        Ok(if stopped { ControlFlow::Break(()) } else { ControlFlow::Continue(()) })
+        Ok(progress(state))
     })?;
-    if stopped {
-        return Ok(state);
-    }
-    let begin = std::time::Instant::now();
-    store.finish()?;
-    state.storing += begin.elapsed().as_secs_f64();
     Ok(state)
 }
 

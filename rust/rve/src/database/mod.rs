@@ -17,24 +17,20 @@
 //! | `rows` | the rows of one packing |
 //! | `path_rows` | the rows of one path |
 //! | [`record`] | one row: one state of one packing |
-//! | [`store`] | the SQLite file: schema, provenance, resume |
-//! | `stored` | how far a file is |
+//! | `store` | the folder of a database |
+//! | `provenance` | where the rows come from |
 //! | [`generate`](mod@generate) | makes the rows, on several threads |
-//! | [`merge`](mod@merge) | shards made on several machines become one file |
 //! | [`offenders`] | a plan of new packings from a solver's queries outside a model's range |
 //! | [`dataset`] | rows with their provenance (where they come from) |
 //! | `read`(mod@read) | reading a database or CSV, or several files as one dataset |
 //! | [`export`] | CSV with a column dictionary |
 //! | [`csv_file`] | reading CSV |
-//! | `schema` | checks of an SQLite file before it is read |
 //! | `cell` | one value of a row |
-//! | `checksum` | checksums over rows and provenance |
 //! | [`check`] | exact laws on every row, statistics, noise floor |
 
 mod block;
 mod cell;
 pub mod check;
-mod checksum;
 pub mod csv_file;
 pub mod dataset;
 mod discs;
@@ -42,39 +38,34 @@ pub mod export;
 pub mod generate;
 mod grains;
 mod kind;
-pub mod merge;
 pub mod offenders;
 mod path_rows;
 pub mod paths;
 pub mod plan;
+mod provenance;
 mod read;
 mod recipe;
 pub mod record;
 mod rows;
-mod schema;
 mod seed;
 mod shard;
 pub mod spheres;
-pub mod store;
-mod stored;
+mod store;
 pub mod table;
 mod violation;
 
 pub use dataset::Dataset;
-pub use export::{export_csv, seal};
+pub use export::export_csv;
 pub use generate::{Progress, Run, generate};
 pub use grains::{Grains, grains};
-pub use merge::merge;
 pub use offenders::{Effort, Offenders};
 pub use plan::{Kind, Plan, RampName};
-pub use read::{has_checksum, inspect, read, read_all, read_spheres};
+pub use provenance::PROVENANCE;
+pub use read::{inspect, read, read_all, read_spheres};
 pub use recipe::Recipe;
 pub use record::Record;
-pub use schema::PROVENANCE;
 pub use shard::Shard;
 pub use spheres::{PathName, SpherePlan, SphereRecord};
-pub use store::Store;
-pub use stored::{Stored, planned_packings, stored};
 pub use violation::Violation;
 
 use std::path::PathBuf;
@@ -90,8 +81,6 @@ pub enum DatabaseError {
     Plan { file: String, problem: String },
     #[error(transparent)]
     File(#[from] msdd_files::FileError),
-    #[error("{path}: {source}")]
-    Sqlite { path: PathBuf, source: rusqlite::Error },
     #[error("{path}: {source}", source = crate::message::shortened(&source.to_string()))]
     Csv { path: PathBuf, source: csv::Error },
     #[error("{path}: not an msdd database ({problem})")]
@@ -112,11 +101,11 @@ pub enum DatabaseError {
          for training and among those held out for testing; give every database once, as itself or as its CSV"
     )]
     Twice { path: PathBuf, packing: i64, other: PathBuf, other_packing: i64 },
-    #[error("{path}: {problem}")]
-    Merge { path: PathBuf, problem: String },
+    #[error("{path}: {missing} of {of} packings are missing: {list}; msdd database generate continues it")]
+    Incomplete { path: PathBuf, missing: usize, of: usize, list: String },
     #[error(
         "{path}: was made with {key} = {found}, now it is {expected}; rows of both cannot stand in one database: choose \
-         another --out or remove the file", found = crate::message::shortened(found)
+         another --out or remove it", found = crate::message::shortened(found)
     )]
     Mismatch { path: PathBuf, key: &'static str, found: String, expected: String },
 }

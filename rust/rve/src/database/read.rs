@@ -1,45 +1,22 @@
 //! Reading a database or its CSV with its provenance, one file or several together.
 
-use super::dataset::undamaged;
-use super::grains::is_sqlite;
 use super::plan::{Plan, RampName};
+use super::provenance::{SHA256, sha256};
 use super::recipe::Recipe;
 use super::record::Record;
 use super::spheres::SphereRecord;
-use super::store::Store;
 use super::table::Row;
-use super::{DatabaseError, Dataset, Grains, Violation, checksum, csv_file, grains};
-use sha2::{Digest, Sha256};
+use super::{DatabaseError, Dataset, Grains, Violation, csv_file, grains, store};
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 /// Number of violations that an error message lists.
 const NAMED: usize = 3;
 
-impl<R> Dataset<R> {
-    /// Whether the dataset has checksums. Files of older programs have none.
-    pub fn has_checksum(&self) -> bool {
-        checksum::is_sealed(&self.provenance)
-    }
-}
-
-/// Whether a file has checksums; see [`Dataset::has_checksum`].
-///
-/// # Errors
-/// [`DatabaseError`] for what cannot be read.
-pub fn has_checksum(path: &Path) -> Result<bool, DatabaseError> {
-    let provenance = match (is_sqlite(path)?, grains(path)?) {
-        (true, Grains::Discs) => Store::<Record>::open(path)?.provenance()?,
-        (true, Grains::Spheres) => Store::<SphereRecord>::open(path)?.provenance()?,
-        (false, _) => csv_file::provenance(path)?,
-    };
-    Ok(checksum::is_sealed(&provenance))
-}
-
 /// Reads a database of discs, or the CSV that was exported from one (plain or gzip) with its provenance beside it.
 ///
 /// # Errors
-/// [`DatabaseError::Damaged`] when a checksum does not agree; [`DatabaseError`] for what cannot be read.
+/// [`DatabaseError::Incomplete`] when packings of the plan are missing; [`DatabaseError`] for what cannot be read.
 pub fn read(path: &Path) -> Result<Dataset, DatabaseError> {
     if grains(path)? == Grains::Spheres {
         return Err(DatabaseError::Spheres { path: path.to_path_buf() });
@@ -57,21 +34,24 @@ pub fn read_spheres(path: &Path) -> Result<Dataset<SphereRecord>, DatabaseError>
 
 /// As [`read`], of rows of the given type.
 pub(super) fn read_rows<R: Row>(path: &Path) -> Result<Dataset<R>, DatabaseError> {
-    let (dataset, damage) = inspect(path)?;
-    undamaged(path, dataset, &damage)
+    let dataset = inspect(path)?;
+    if path.is_dir() {
+        store::complete(path, &dataset.provenance)?;
+    }
+    Ok(dataset)
 }
 
-/// As [`read`], but returns the dataset even when it differs from its checksums, with a description of the differences.
+/// As [`read`], also of a database of which packings are missing.
 ///
 /// # Errors
 /// [`DatabaseError`] for what cannot be read.
-pub fn inspect<R: Row>(path: &Path) -> Result<(Dataset<R>, Vec<String>), DatabaseError> {
-    let (mut dataset, damage) = match is_sqlite(path)? {
-        true => Store::<R>::open(path)?.inspected()?,
-        false => csv_file::inspected(path)?,
+pub fn inspect<R: Row>(path: &Path) -> Result<Dataset<R>, DatabaseError> {
+    let mut dataset: Dataset<R> = match store::is_folder(path)? {
+        true => store::read(path)?,
+        false => csv_file::read(path)?,
     };
     dataset.records.sort_by(|a, b| (a.packing(), a.order()).cmp(&(b.packing(), b.order())));
-    Ok((dataset, damage))
+    Ok(dataset)
 }
 
 /// Returns an error when a law is violated; `path` is the file named in it.
@@ -124,10 +104,10 @@ pub fn read_all(paths: &[PathBuf]) -> Result<Dataset, DatabaseError> {
         all.records.append(&mut records);
     }
     if plans.len() > 1 {
-        let hash = Sha256::digest(plans.concat()).iter().map(|byte| format!("{byte:02x}")).collect();
+        let hash = sha256(plans.concat().as_bytes());
         all.provenance.insert("plan_hash".to_string(), hash);
-        // These checksums are those of the first file alone.
-        checksum::unseal(&mut all.provenance);
+        // This hash is that of the first file alone.
+        all.provenance.remove(SHA256);
     }
     Ok(all)
 }

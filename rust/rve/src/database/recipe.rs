@@ -1,8 +1,10 @@
-//! What a plan has to know so that a database is made, checked and merged by it.
+//! What a plan has to know so that a database is made and checked by it.
 
+use super::plan::Plan;
+use super::provenance::sha256;
+use super::spheres::SpherePlan;
 use super::table::Row;
 use super::{DatabaseError, Dataset, Violation};
-use sha2::{Digest, Sha256};
 
 /// A plan of packings.
 pub trait Recipe: Sized + Sync {
@@ -37,6 +39,21 @@ pub trait Recipe: Sized + Sync {
 
     /// SHA-256 of the plan's text, hexadecimal.
     fn hash(&self) -> String {
-        Sha256::digest(self.text().as_bytes()).iter().map(|byte| format!("{byte:02x}")).collect()
+        sha256(self.text().as_bytes())
     }
 }
+
+/// The packings of a plan of any grains, and the entries of the provenance that follow from it. `file` names it in errors.
+pub(super) fn planned(text: &str, file: &str) -> Result<Planned, DatabaseError> {
+    fn all<P: Recipe>(plan: &P) -> Planned {
+        let mut entries = plan.grains();
+        entries.push(("plan_hash", plan.hash()));
+        (plan.jobs().iter().map(|job| P::packing(job).0).collect(), entries)
+    }
+    Ok(match SpherePlan::has_sphere_schema(text) {
+        true => all(&SpherePlan::parse(text, file)?),
+        false => all(&Plan::parse(text, file)?),
+    })
+}
+
+type Planned = (Vec<i64>, Vec<(&'static str, String)>);

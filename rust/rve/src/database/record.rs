@@ -1,12 +1,12 @@
 //! One row of the database: one state of one packing.
 
+use super::cell::Value;
 use super::kind::{Kind, RampName};
 use super::paths::Increment;
 use super::plan::Job;
-use super::table::{Column, Row, Schema, row};
+use super::table::{Column, Row, row};
 use crate::slide::Sliding;
 use crate::{Averages, Boundary, Compression, Material, Outcome, RegionKind, Settled, Strains};
-use rusqlite::types::{Value, ValueRef};
 
 #[rustfmt::skip]
 row! {
@@ -82,22 +82,17 @@ row! {
     mean_radius: Option<f64>, "REAL", "m", "mean disc radius, current";
 }
 
-/// Columns that files of schema 2 do not have; they are null there.
+/// Columns that files of schema 2 do not have; they are empty there.
 const LATER: [&str; 7] = ["from_stop", "step_thermal", "step_xx", "step_yy", "step_xy", "probe", "fabric_xy"];
 
 impl Row for Record {
     const COLUMNS: &'static [Column] = COLUMNS;
-    const SCHEMAS: &'static [Schema] =
-        &[Schema { number: "2", without: &LATER }, Schema { number: "3", without: &[] }];
-    const KEY: &'static str = "packing, ramp, stop";
+    const SCHEMA: &'static str = "3";
+    const LATER: &'static [&'static str] = &LATER;
     type Place = (RampName, i64);
 
-    fn values(&self) -> Vec<Value> {
-        self.all_values()
-    }
-
     fn from_cells<'a>(
-        cell: impl Fn(usize) -> Result<ValueRef<'a>, String>,
+        cell: impl Fn(usize) -> Result<Value<'a>, String>,
     ) -> Result<Self, (&'static str, String)> {
         Self::of_cells(cell)
     }

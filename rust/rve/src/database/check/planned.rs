@@ -1,6 +1,6 @@
 //! Rows against the plan that they were made by, and the tolerance of all laws.
 
-use crate::database::dataset::DIGITS;
+use crate::database::provenance::DIGITS;
 use crate::database::recipe::Recipe;
 use crate::database::table::Row;
 use crate::database::{DatabaseError, Dataset, Shard, Violation};

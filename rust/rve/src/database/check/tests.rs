@@ -23,12 +23,12 @@ fn paths() -> Dataset {
 }
 
 fn made(plan: &str, name: &str) -> Dataset {
-    let path = std::env::temp_dir().join(format!("msdd-check-{name}-{}.msdd", std::process::id()));
-    let _ = std::fs::remove_file(&path);
+    let path = std::env::temp_dir().join(format!("msdd-check-{name}-{}", std::process::id()));
+    let _ = std::fs::remove_dir_all(&path);
     generate(&Plan::parse(plan, "plan").unwrap(), &path, &Run::default(), |_| ControlFlow::Continue(()))
         .unwrap();
     let dataset = read(&path).unwrap();
-    std::fs::remove_file(&path).unwrap();
+    std::fs::remove_dir_all(&path).unwrap();
     dataset
 }
 

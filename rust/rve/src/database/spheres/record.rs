@@ -4,10 +4,10 @@ use super::kind::{PathName, SphereCompression};
 use super::paths::{Increment, Planned};
 use super::plan::SphereJob;
 use crate::Outcome;
+use crate::database::cell::Value;
 use crate::database::record::FAILED;
-use crate::database::table::{Column, Row, Schema, row};
+use crate::database::table::{Column, Row, row};
 use crate::spheres::{Averages, Rest, Strain, Tensor};
-use rusqlite::types::{Value, ValueRef};
 
 #[rustfmt::skip]
 row! {
@@ -75,19 +75,12 @@ row! {
 
 impl Row for SphereRecord {
     const COLUMNS: &'static [Column] = COLUMNS;
-    const SCHEMAS: &'static [Schema] = &[
-        Schema { number: "spheres 1", without: &["shaking"] },
-        Schema { number: "spheres 2", without: &[] },
-    ];
-    const KEY: &'static str = "packing, path, stop";
+    const SCHEMA: &'static str = "spheres 2";
+    const LATER: &'static [&'static str] = &["shaking"];
     type Place = (PathName, i64);
 
-    fn values(&self) -> Vec<Value> {
-        self.all_values()
-    }
-
     fn from_cells<'a>(
-        cell: impl Fn(usize) -> Result<ValueRef<'a>, String>,
+        cell: impl Fn(usize) -> Result<Value<'a>, String>,
     ) -> Result<Self, (&'static str, String)> {
         Self::of_cells(cell)
     }

@@ -10,12 +10,12 @@ const PLAN: &str = "seed = 3\n[[spheres]]\nspheres = 60\npacking_frictions = [0.
 fn dataset() -> Dataset<SphereRecord> {
     static MADE: OnceLock<Dataset<SphereRecord>> = OnceLock::new();
     let make = || {
-        let path = std::env::temp_dir().join(format!("msdd-check-spheres-{}.msdd", std::process::id()));
-        let _ = std::fs::remove_file(&path);
+        let path = std::env::temp_dir().join(format!("msdd-check-spheres-{}", std::process::id()));
+        let _ = std::fs::remove_dir_all(&path);
         let plan = SpherePlan::parse(PLAN, "plan").unwrap();
         generate(&plan, &path, &Run::default(), |_| ControlFlow::Continue(())).unwrap();
         let dataset = read_spheres(&path).unwrap();
-        std::fs::remove_file(&path).unwrap();
+        std::fs::remove_dir_all(&path).unwrap();
         dataset
     };
     MADE.get_or_init(make).clone()
