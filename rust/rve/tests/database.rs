@@ -48,7 +48,7 @@ fn rows_do_not_depend_on_threads_and_csv_reads_back() {
         let csv = folder.join(format!("{threads}.{name}"));
         make(&plan(), &database, threads);
         assert_eq!(export_csv(&database, &csv, None).unwrap(), ROWS);
-        assert_eq!(read(&database).unwrap(), read(&csv).unwrap());
+        assert!(read(&database).unwrap().records == read(&csv).unwrap().records);
         std::fs::read(&csv).unwrap()
     };
     assert_eq!(csv(1, "csv"), csv(3, "csv"));

@@ -64,7 +64,7 @@ fn a_csv_reads_back_and_readers_of_discs_refuse_it() {
     let (database, csv) = (folder.join("a.msdd"), folder.join("a.csv.gz"));
     make(&database, 2, "1/1");
     assert_eq!(export_csv(&database, &csv, None).unwrap(), plan().rows());
-    assert_eq!(read_spheres(&database).unwrap(), read_spheres(&csv).unwrap());
+    assert!(read_spheres(&database).unwrap().records == read_spheres(&csv).unwrap().records);
     for path in [&database, &csv] {
         assert_eq!(grains(path).unwrap(), Grains::Spheres);
         let error = read(path).unwrap_err().to_string();

@@ -141,7 +141,7 @@ pub fn plan_through_c(text: &str) -> Result<bool, String> {
     }
     let parsed = Plan::parse(text, "plan").map(|plan| plan.jobs().len());
     let path = scratch("database");
-    let _ = std::fs::remove_file(&path);
+    let _ = std::fs::remove_dir_all(&path);
     let (Ok(plan), Ok(name)) = (CString::new(text), CString::new(path.to_string_lossy().as_bytes())) else {
         return Ok(false);
     };

@@ -65,7 +65,6 @@ fn the_page_of_the_package_has_every_public_name_once() {
     }
     for (name, row) in [
         ("commands", "| `constant`, `paper`, `increment`, `spheres` | `increment` |"),
-        ("commands", "--wait` | 1 to 3600 | `10` |"),
         ("commands", "| – | required |"),
         ("beds", "| `friction` | Coefficient of friction of two grains | – | 0 to 10 | required |"),
         ("database", "| `wall_slip` | m | way of bottom and top along x since the packed state |"),

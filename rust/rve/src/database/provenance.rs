@@ -1,8 +1,6 @@
 //! Where the rows of a database come from: keys and values, in `provenance.json` of a database and in the file next to a CSV.
 
 use super::DatabaseError;
-use super::recipe::Recipe;
-use super::table::Row;
 use msdd_files::{Column, FileError, write};
 use sha2::{Digest, Sha256};
 use std::collections::{BTreeMap, BTreeSet};
@@ -42,18 +40,6 @@ pub const PROVENANCE: [Column; 14] = [
     (ABSENT, "-", "columns that rows of an older engine do not have; absent if there are none"),
     (SHA256, "-", "of a CSV since version 0.3: SHA-256 of the other entries, as JSON, and of its text"),
 ];
-
-/// The provenance of a database of a plan.
-pub(super) fn of_plan<P: Recipe>(plan: &P, commit: &str) -> Provenance {
-    let pairs = [
-        ("schema", P::Row::SCHEMA.to_string()),
-        ("engine_version", P::ENGINE_VERSION.to_string()),
-        ("commit", commit.to_string()),
-        ("plan", plan.text().to_string()),
-        ("plan_hash", plan.hash()),
-    ];
-    pairs.into_iter().chain(plan.grains()).map(|(key, value)| (key.to_string(), value)).collect()
-}
 
 /// Reads a file of a provenance; `None` if it is missing.
 pub(super) fn read(file: &Path) -> Result<Option<Provenance>, DatabaseError> {

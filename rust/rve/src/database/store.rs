@@ -31,6 +31,18 @@ pub(super) fn is_folder(path: &Path) -> Result<bool, DatabaseError> {
     Ok(false)
 }
 
+/// The provenance of a database of a plan.
+fn of_plan<P: Recipe>(plan: &P, commit: &str) -> Provenance {
+    let pairs = [
+        ("schema", P::Row::SCHEMA.to_string()),
+        ("engine_version", P::ENGINE_VERSION.to_string()),
+        ("commit", commit.to_string()),
+        ("plan", plan.text().to_string()),
+        ("plan_hash", plan.hash()),
+    ];
+    pairs.into_iter().chain(plan.grains()).map(|(key, value)| (key.to_string(), value)).collect()
+}
+
 /// Makes the folder of a plan, or checks that an existing one belongs to it. `commit` is that of the program: it is listed,
 /// but not compared.
 ///
@@ -40,7 +52,9 @@ pub(super) fn open<P: Recipe>(folder: &Path, plan: &P, commit: &str) -> Result<(
     let failed = |source| msdd_files::FileError::Write { file: folder.to_path_buf(), source };
     std::fs::create_dir_all(folder).map_err(failed)?;
     let file = folder.join(PROVENANCE_FILE);
-    let mut expected = provenance::of_plan(plan, commit);
+    // Before the provenance is read: another process that works on the plan writes packings after it.
+    let others = msdd_files::list(folder)?.iter().any(|file| !is_temporary(file));
+    let mut expected = of_plan(plan, commit);
     if let Some(found) = provenance::read(&file)? {
         for key in ["schema", "engine_version", "plan_hash"] {
             provenance::expect(folder, &found, key, &expected[key])?;
@@ -50,15 +64,16 @@ pub(super) fn open<P: Recipe>(folder: &Path, plan: &P, commit: &str) -> Result<(
         if found == expected {
             return Ok(());
         }
-    } else if msdd_files::list(folder)?.iter().any(|file| !is_lock(file)) {
+    } else if others {
         let problem = format!("it has files, but no {PROVENANCE_FILE}");
         return Err(DatabaseError::Format { path: folder.to_path_buf(), problem });
     }
     provenance::put(&file, &expected)
 }
 
-fn is_lock(file: &Path) -> bool {
-    file.extension().is_some_and(|extension| extension == "lock")
+/// Whether a file is a lock, or is being written.
+fn is_temporary(file: &Path) -> bool {
+    file.extension().is_some_and(|extension| extension == "lock" || extension == "part")
 }
 
 /// The files of the packings that are there.
