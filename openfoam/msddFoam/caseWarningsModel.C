@@ -71,8 +71,8 @@ void Foam::caseWarnings::checkCompared()
     {
         add
         (
-            "Beyond what the model was compared with: " + part + ". Nothing is"
-            " known of the model's error there"
+            "Beyond what the model was compared with: " + part + ". The"
+            " model's error there is unknown"
         );
     }
 }
@@ -253,7 +253,7 @@ void Foam::caseWarnings::checkGas()
         {
             add
             (
-                "T gets to " + brief(T) + " K, and the gas is known "
+                "T gets to " + brief(T) + " K, and the gas is tabulated "
               + (hot ? "up to " : "down to ") + brief(outside) + " K. Beyond,"
                 " the solver takes it as it is there. Temperatures are in"
                 " Kelvin"

@@ -184,7 +184,7 @@ void Foam::caseWarnings::checkKnown()
     {
         text +=
             least > most
-          ? string(". No pressure of the gas is known between these spheres")
+          ? string(". No pressure of the gas is in the range for these spheres")
           : string
             (
                 ". Between these spheres gasPressure is known from about "
@@ -302,7 +302,7 @@ void Foam::caseWarnings::walk(const scalar strain, const scalar T)
               + (cell.above(i) ? "above" : "below") + " the range that the model"
                 " was trained with, from a strain of " + brief(to) + " on. The"
                 " run may end then. With 'mechanics equilibrium' the state"
-                " changes less, as long as the bed around gives way"
+                " changes less, as long as the bed around yields"
             );
             return;
         }

@@ -141,7 +141,7 @@ void Foam::caseWarnings::checkGravity()
         (
             below > (1 - sideCosine)*mag(out)*mag(g)
           ? "Gravity points to wall '" + lid + "', whose pressure is given: the"
-            " pressure has to bear the weight of the bed, "
+            " pressure has to carry the weight of the bed, "
           + brief(1e-3*magSqr(g)*gSum(grains_.mass())/below) + " kPa. Gravity"
             " points away from a lid: see constant/g"
           : shown + ", usual: away from wall '" + lid + "', which presses on the"
@@ -181,7 +181,7 @@ void Foam::caseWarnings::checkWallKeys()
             (
                 "Wall '" + string(each.keyword()) + "' is given a pressure down"
                 " to " + pascals(p.least) + ", usual: 0 Pa and more. It pulls,"
-                " and grains bear no tension"
+                " and grains carry no tension"
             );
         }
     }

@@ -88,7 +88,7 @@ bool Foam::dryRun::makeRegions()
             warnings_,
             "No region of constant/regionProperties is a bed: none has"
             " thermoType granularSolidThermo in its thermophysicalProperties."
-            " A bed beside msddFoam needs constant/granularProperties"
+            " A bed of msddFoam needs constant/granularProperties"
         );
     }
     for (regionObjects& region : regions_)

@@ -52,7 +52,7 @@ bool Foam::heatEquation::wallsReadTensor() const
             FatalErrorInFunction
                 << "Entry 'kappa' of patch " << wall.patch().name() << " of T"
                 << " is " << kappa << ", allowed: K, the conductivity in the"
-                << " equation of the step; 'conductivity' is that of the last"
+                << " equation of the step; 'conductivity' belongs to the last"
                 << " output" << exit(FatalError);
         }
     }

@@ -38,7 +38,7 @@ Foam::string Foam::runSummary::comparison() const
     const runCourse& course = grains_.record().course;
     if (!course.compared())
     {
-        return "no comparison of it with DEM is known";
+        return "it was not compared with DEM";
     }
     const stringList beyond(course.beyond());
     if (beyond.empty())
@@ -54,7 +54,7 @@ Foam::string Foam::runSummary::comparison() const
     {
         text += (i ? "; " : "") + beyond[i];
     }
-    return text + ". Nothing is known of its error there";
+    return text + ". Its error there is unknown";
 }
 
 

@@ -55,8 +55,7 @@ Foam::string Foam::runSummary::range() const
     if (!clamped)
     {
         return
-            "Range: the model was never asked about a state outside the range"
-            " that it was made for, "
+            "Range: no state was outside the range of the model, "
           + string(grains_.record().course.beyond().size() ? "but " : "and ")
           + comparison() + ".";
     }
@@ -64,9 +63,8 @@ Foam::string Foam::runSummary::range() const
     const label cells =
         returnReduce(grains_.mesh().nCells(), sumOp<label>());
     return
-        "Range: " + brief(share) + " % of the states that the model was asked"
-        " about lay outside the range that it was made for, where it answers as"
-        " well as it can. At the end "
+        "Range: " + brief(share) + " % of the states were outside the range"
+        " of the model, where it extrapolates. At the end "
       + Foam::name(grains_.cellsOutside()) + " of " + Foam::name(cells)
       + " cells are outside (field inTrainingRange is 0 there)."
       + outsideBy()
@@ -110,13 +108,13 @@ Foam::string Foam::runSummary::warning() const
     const scalar spread = grains_.meanSpread();
     if (spread < 0)
     {
-        return "Warning: this model does not tell how far packings of equal state"
+        return "Warning: this model does not state how far packings of equal state"
             " differ.";
     }
     return
         "Warning: small boxes of grains of equal state differ by "
       + brief(100*spread) + " % in conductivity (standard deviation, mean over"
-        " the bed); a cell cannot be known better than that.";
+        " the bed); no cell is more accurate than that.";
 }
 
 
@@ -186,8 +184,8 @@ Foam::string Foam::runSummary::contact() const
         returnReduce(grains_.mesh().nCells(), sumOp<label>());
     return loose
       ? "Warning: grains in " + Foam::name(loose) + " of " + Foam::name(cells)
-      + " cells bear no load at the end. Where they have lost touch they lie"
-        " about as no model of a bed under load knows."
+      + " cells carry no load at the end. Where they have lost contact, the"
+        " model of a loaded bed is not valid."
       : string();
 }
 

@@ -151,7 +151,7 @@ Foam::sphereEstimates::forces(const scalar pressure) const
     (
         "at a pressure of " + pascals(pressure) + " the mean force of contacts"
         " is " + brief(force) + " N, with a Hertz pressure of "
-      + pascals(middle) + "; one contact in 100 bears more than "
+      + pascals(middle) + "; one contact in 100 carries more than "
       + brief(largeForce*force) + " N (" + pascals(large) + ")"
     );
     scalar hardness = 0;

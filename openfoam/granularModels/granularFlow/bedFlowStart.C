@@ -181,7 +181,7 @@ void Foam::granularFlows::bedFlow::checkBed() const
             << "Entry 'flow' is "
             << properties_.get<word>("flow") << " with surrogate type " << law
             << ", allowed: the types spheres and constant. No correlations of"
-            << " drag and heat exchange are known for discs"
+            << " drag and heat exchange exist for discs"
             << exit(FatalIOError);
     }
     const scalar least = gMin(grains_.porosity());
@@ -375,7 +375,7 @@ Foam::string Foam::granularFlows::bedFlow::temperatures() const
     if (xi_ == 0)
     {
         os  << "; no gas flows at the start, so that the error of one"
-            << " temperature is not known.";
+            << " temperature cannot be estimated.";
         return os.str();
     }
     os  << ": in a bed of " << xi_

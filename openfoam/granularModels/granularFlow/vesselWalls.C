@@ -29,8 +29,8 @@ const keyTable vesselWalls::keys
     {
         {
             "heatCapacity",
-            "heat capacity of the wall per area of its inside, such as that of"
-            " a steel tube: its thickness times density times heat capacity",
+            "heat capacity of the wall per area of its inside, for"
+            " example of a steel tube: thickness times density times heat capacity",
             "J/(m2 K)", "0 to 1e9", "0"
         },
         {
@@ -45,7 +45,7 @@ const keyTable vesselWalls::keys
         },
         {
             "gasExchange",
-            "heat transfer coefficient between gas and wall. Without it that of"
+            "heat transfer coefficient between gas and wall. The default is by"
             " Li and Finlayson, Nu = 0.17 Re^0.79, measured within a factor of"
             " two. The only key of a wall to a solid next to the bed (T has the"
             " condition `granularContact`), which needs no entry",
@@ -145,7 +145,7 @@ void Foam::vesselWalls::read(const keyTable& keys, const dictionary& dict)
                     << "Entry '" << key << "' of the wall " << item.keyword()
                     << " in 'walls' of the flow is given, allowed where T"
                     << " has the condition granularContact: gasExchange alone,"
-                    << " because the solid beside the bed has the rest"
+                    << " because the solid next to the bed has the rest"
                     << exit(FatalIOError);
             }
         }

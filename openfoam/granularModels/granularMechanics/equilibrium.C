@@ -207,7 +207,7 @@ Foam::granularMechanicsModels::equilibrium::equilibrium
     {
         FatalIOErrorInFunction(dict_)
             << "A wall has entry 'slackLayer', allowed: 0 with law elastic, which has"
-            << " no grains that give way" << exit(FatalIOError);
+            << " no grains that rearrange" << exit(FatalIOError);
     }
     if (read_ == IOobject::NO_READ && !law_->elastic())
     {
@@ -239,7 +239,7 @@ Foam::granularMechanicsModels::equilibrium::equilibrium
         FatalErrorInFunction
             << "The mesh has cells that are turned inside out or have no"
             << " volume, such as " << failure().c_str()
-            << "; checkMesh tells more" << exit(FatalError);
+            << "; see checkMesh" << exit(FatalError);
     }
     shapes_ = reference_;
     setWeight();
@@ -484,7 +484,7 @@ void Foam::granularMechanicsModels::equilibrium::compareWeight() const
         WarningInFunction
             << "The stress at the start is " << borne << " Pa along gravity in"
             << " the mean, and the weight of the bed over the area below it is "
-            << weight << " Pa: spheres that bear so little are far too soft for"
+            << weight << " Pa: spheres under so little stress are far too soft for"
             << " it, and the run may take thousands of steps. Is the stress"
             << " given in Pa? restStress in constant/granularProperties is that"
             << " of a bed at rest" << nl << endl;

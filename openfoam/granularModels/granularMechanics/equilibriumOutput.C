@@ -208,7 +208,7 @@ void Foam::granularMechanicsModels::equilibrium::writeReport() const
         << " steps solved, " << all.iterations << " iterations, " << all.linear
         << " linear, " << all.cut << " steps in parts; largest displacement "
         << all.displacement << " m; largest residual left " << all.residual
-        << " Pa, in " << all.unconverged << " steps above that of the step";
+        << " Pa, in " << all.unconverged << " steps above the limit of the step";
     if (all.unconverged)
     {
         Info<< ", by at most " << all.unbalanced << " Pa";

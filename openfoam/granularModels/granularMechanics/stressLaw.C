@@ -132,8 +132,8 @@ Foam::autoPtr<Foam::stressLaw> Foam::stressLaw::New
             FatalIOErrorInFunction(dict)
                 << "Entry 'law' is elastic with surrogate type " << type
                 << ", allowed: type constant with the entry 'conductivity',"
-                << " because no other conductivity is known of a solid that has"
-                << " no grains" << exit(FatalIOError);
+                << " because a solid without grains has no other"
+                << " conductivity" << exit(FatalIOError);
         }
         return autoPtr<stressLaw>
         (
@@ -149,7 +149,7 @@ Foam::autoPtr<Foam::stressLaw> Foam::stressLaw::New
         FatalIOErrorInFunction(dict)
             << "Entry 'law' is grains (the default), and the mesh "
             << (mesh.dim() == 3 ? "has three dimensions" : "is a wedge")
-            << ": discs that move are known in the plane alone, on a mesh of one"
+            << ": discs that move are modelled in the plane alone, on a mesh of one"
             << " layer between patches of type empty. Allowed here: surrogate"
             << " type spheres, or law elastic, with"
             << " elasticCoeffs { youngModulus; poissonRatio; }"

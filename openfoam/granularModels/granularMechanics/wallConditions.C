@@ -116,7 +116,7 @@ const Foam::keyTable Foam::wallConditions::keys
         {
             "slackLayer",
             "additional depth of bed by which the grains at a smooth wall"
-            " slip, see [below](#grains-that-give-way-at-a-wall)",
+            " slip, see [below](#slack-at-smooth-walls)",
             "mean diameters", "0 to 1000", "0", "rigid or frictionless"
         },
         {

@@ -123,9 +123,9 @@ void Foam::wallConditions::findPistons()
         if (!returnReduce(upright, andOp<bool>()))
         {
             FatalErrorInFunction
-                << "Patch " << name << " is a piston, and a wall beside it keeps"
+                << "Patch " << name << " is a piston, and a wall next to it keeps"
                 << " it from moving, or another piston that shares points with"
-                << " it. Allowed beside it: walls and pistons at right angles to"
+                << " it. Allowed next to it: walls and pistons at right angles to"
                 << " it, that is along its motion; a lid of one patch; see"
                 << " 'walls' of equilibriumCoeffs" << exit(FatalError);
         }

@@ -160,7 +160,7 @@ void Foam::checkPlane(const fvMesh& mesh, const dictionary& surrogate)
             << (mesh.time().constant()/mesh.meshDir()).c_str()
             << " is three-dimensional, allowed: two-dimensional in x and y,"
             << " with empty patches in z. This model is made from discs and"
-            << " knows no third direction; the surrogate types spheres and"
+            << " has no third direction; the surrogate types spheres and"
             << " constant take any mesh" << exit(FatalError);
     }
 }
@@ -186,7 +186,7 @@ void Foam::checkVolumes(const fvMesh& mesh)
             << returnReduce(mesh.nCells(), sumOp<label>())
             << " with a volume of zero or below, the least " << least
             << " m^3, allowed: > 0. A mesh that has been mirrored is turned"
-            << " inside out; checkMesh tells more" << exit(FatalError);
+            << " inside out; see checkMesh" << exit(FatalError);
     }
 }
 

@@ -334,7 +334,7 @@ void Foam::granularState::readState()
             if (givenStress.valid())
             {
                 FatalIOErrorInFunction(properties_)
-                    << "Entry 'restStress' stands beside the field stress in "
+                    << "Entry 'restStress' is given together with the field stress in "
                     << givenStress().objectPath()
                     << ", allowed: one of both" << exit(FatalIOError);
             }
@@ -556,7 +556,7 @@ void Foam::granularState::setInitialTemperature()
     if (initialTemperature_.typeHeaderOk<volScalarField>(true))
     {
         FatalIOErrorInFunction(properties_)
-            << "Entry '" << key << "' stands beside the field of this name in "
+            << "Entry '" << key << "' is given together with the field of this name in "
             << initialTemperature_.objectPath() << ", allowed: one of both"
             << exit(FatalIOError);
     }
@@ -585,7 +585,7 @@ void Foam::granularState::beginWherePlaced()
 
     OStringStream text;
     text.precision(4);
-    text<< "The fields of time " << mesh_.time().timeName() << " are those of"
+    text<< "The fields of time " << mesh_.time().timeName() << " belong to"
         << " grains that have moved (areaRatio " << gMin(ratio().primitiveField())
         << " to " << gMax(ratio().primitiveField()) << "), without what"
         << " says from where, nodeDisplacement and initialStress. They begin"

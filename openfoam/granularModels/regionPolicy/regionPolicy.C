@@ -279,7 +279,7 @@ void Foam::regionPolicy::judgeStart
             << cells_.size() << " cells, up to " << most.c_str()
             << ", allowed: at most " << unjammed << ", beyond which no grains"
             << " touch: the model would answer as for packings of about "
-            << loosest << ", which conduct and bear a load. To run anyway, give"
+            << loosest << ", which conduct and carry load. To run anyway, give"
             << " porosity { above clamp; } in outOfTrainingRange of"
             << " constant/granularProperties" << exit(FatalIOError);
     }

@@ -45,7 +45,7 @@ static const comparedQuantity comparedQuantities[] =
     {"thermal_strain", "thermal strain", "", true, true},
     {"temperature", "temperature", " K", true, false},
     {"heat_source", "heat from inside of the bed", " W/m3", false, true},
-    {"conductivity_ratio", "k of the grains over that of the gas", "", true, false},
+    {"conductivity_ratio", "k of the grains over k of the gas", "", true, false},
     {"grains_across", "grains between opposite walls", "", true, false}
 };
 

@@ -324,8 +324,8 @@ void Foam::granularModels::spheres::initialState
             << (mesh_.time().path()/mesh_.time().timeName()).c_str()
             << ": surrogate type spheres needs the stress at the start [Pa],"
             << " tension positive, for example (-2000 0 0 -2000 0 -2000) of the"
-            << " weight of a bed. Without it neither contacts nor stiffness are"
-            << " known" << exit(FatalError);
+            << " weight of a bed. Without it contacts and stiffness are"
+            << " undetermined" << exit(FatalError);
     }
     const std::vector<const scalar*> stress
     ({
@@ -351,7 +351,7 @@ void Foam::granularModels::spheres::initialState
             << " is tension in " << returnReduce(tense, sumOp<label>())
             << " cells, in the mean of the directions up to "
             << returnReduce(tension, maxOp<scalar>()) << " Pa, allowed: at most"
-            << " 0, because grains cannot bear tension. Tension is positive:"
+            << " 0, because grains cannot carry tension. Tension is positive:"
             << " the stress of a bed under load is negative" << exit(FatalError);
     }
     // What is not given is left to the law
@@ -512,8 +512,8 @@ void Foam::granularModels::spheres::reportStart
     if (most > notable)
     {
         Info<< "The stress at the start is more than packings of this porosity"
-            << " bear: it is changed by up to " << most << " of the pressure, to"
-            << " what the law can bear" << nl << endl;
+            << " carry: it is changed by up to " << most << " of the pressure, to"
+            << " what the law allows" << nl << endl;
     }
 }
 

@@ -228,7 +228,7 @@ void Foam::granularModels::surrogateModel::checkNames() const
                 << "Model " << source_ << " has the state column "
                 << model_.stateName(i) << ", whose field " << name
                 << " the solver or its mesh has itself." << nl
-                << "Allowed: any name but those of the mesh and "
+                << "Allowed: any name except fields of the mesh and "
                 << granularProperties::listed(ownNames()).c_str()
                 << exit(FatalIOError);
         }

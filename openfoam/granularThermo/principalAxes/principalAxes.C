@@ -249,9 +249,9 @@ void Foam::principalAxes::refuse
     FatalIOErrorInFunction(dict_)
         << "The conductivity of region " << mesh_.name() << " at time "
         << mesh_.time().timeName() << " has a component "
-        << (K.zz.empty() ? "K_xy" : "K_xy, K_xz or K_yz") << " besides those"
+        << (K.zz.empty() ? "K_xy" : "K_xy, K_xz or K_yz") << " in addition to those"
         << " along the axes of coordinateSystem, which this solver cannot take:"
-        << " without it the heat flux errs by up to "
+        << " without it the error of the heat flux is up to "
         << shown(100*error).c_str() << " %, allowed: "
         << shown(100*tolerance_).c_str()
         << " % (crossTolerance " << shown(tolerance_).c_str() << "). With"
@@ -297,7 +297,7 @@ void Foam::principalAxes::apply
     if (error > roundOff && error_ <= roundOff)
     {
         Info<< "Region " << mesh_.name() << ": without what the conductivity"
-            << " has beside its axes, the heat flux errs by up to "
+            << " has across its axes, the error of the heat flux is up to "
             << shown(100*error).c_str() << " %, allowed: "
             << shown(100*tolerance_).c_str() << " %" << endl;
     }

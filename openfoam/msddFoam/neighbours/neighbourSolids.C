@@ -80,8 +80,8 @@ Foam::neighbourSolids::neighbourSolids(const Time& runTime)
             FatalErrorInFunction
                 << "constant/regionProperties has the regions "
                 << granularProperties::listed(iter.val()).c_str()
-                << " of type '" << iter.key() << "', allowed beside msddFoam:"
-                << " solid. With a fluid beside the bed run"
+                << " of type '" << iter.key() << "', allowed next to msddFoam:"
+                << " solid. With a fluid next to the bed run"
                 << " chtMultiRegionFoam, with the bed as solid region of type"
                 << " granularSolidThermo" << exit(FatalError);
         }
@@ -108,7 +108,7 @@ Foam::neighbourSolids::neighbourSolids(const Time& runTime)
 
 void Foam::neighbourSolids::read(const Time& runTime, const word& name)
 {
-    Info<< "Solid beside the bed: region " << name << nl;
+    Info<< "Solid next to the bed: region " << name << nl;
     solids_.append(new solid);
     solid& s = solids_.last();
     s.mesh = regionObjects::readMesh(runTime, name);
@@ -118,7 +118,7 @@ void Foam::neighbourSolids::read(const Time& runTime, const word& name)
     {
         FatalErrorInFunction
             << "Region " << name << " has a conductivity with directions,"
-            << " allowed beside msddFoam: the transport models constIso and"
+            << " allowed next to msddFoam: the transport models constIso and"
             << " others without directions" << exit(FatalError);
     }
     s.correctors =
@@ -382,7 +382,7 @@ void Foam::neighbourSolids::report()
         return;
     }
     const heatBalance heat(balance());
-    Info<< "Solids beside the bed: " << heat.entered
+    Info<< "Solids next to the bed: " << heat.entered
         << " J came in from outside, " << heat.given
         << " J went to the bed, and they hold " << heat.more
         << " J more; the difference is " << heat.difference() << " of these. " << scalar(solutions_)/max(stages_, label(1))

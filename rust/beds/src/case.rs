@@ -339,7 +339,7 @@ impl BedCase {
     /// What the run says of grains so poor that a closure takes the place of the law of pairs.
     pub fn closure(&self) -> Option<String> {
         let text = self.grains.closure(self.temperatures(), &self.gas);
-        text.map(|text| text + " (not compared beside a plate)")
+        text.map(|text| text + " (not compared next to a plate)")
     }
 
     /// What the run says if the emissivity depends on the temperature.

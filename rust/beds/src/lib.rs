@@ -101,12 +101,12 @@ pub enum BedError {
     #[error("pressing: a wall that is not flat, allowed: flat walls")]
     NotFlat,
     #[error(
-        "stage '{stage}': after {time:.3} s the grains still move (kinetic energy {kinetic:.1e} of that of falling by a radius), \
+        "stage '{stage}': after {time:.3} s the grains still move (kinetic energy {kinetic:.1e} of the energy of falling by a radius), \
          allowed: a bed at rest; try more friction, a lower restitution, or another pressure of lid and plate"
     )]
     NotSettled { stage: &'static str, time: f64, kinetic: f64 },
     #[error(
-        "plate.wall = {wall}, with no grain beside it, allowed: a wall that the bed touches, or plate.pressure"
+        "plate.wall = {wall}, with no grain next to it, allowed: a wall that the bed touches, or plate.pressure"
     )]
     WallNotTouching { wall: String },
     #[error(
@@ -120,7 +120,7 @@ pub enum BedError {
     #[error("record.heights: up to {high} m, allowed: up to the depth of the poured bed, {depth:.4} m")]
     Heights { high: f64, depth: f64 },
     #[error(
-        "averages at {time} s: no {name} that a bed has, allowed: a region ('record') with more spheres that bear load, and a bed at rest"
+        "averages at {time} s: no {name} that a bed has, allowed: a region ('record') with more loaded spheres, and a bed at rest"
     )]
     Averages { name: &'static str, time: f64 },
     #[error(

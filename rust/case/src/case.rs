@@ -134,7 +134,7 @@ fn check_sources(folder: &Path) -> Result<(), CaseError> {
     for name in ["constant/fvOptions", "system/fvOptions"] {
         let Some(sources) = optional(folder, name)? else { continue };
         if let Some(key) = sources.keys().find(|key| key.text != "FoamFile") {
-            return Err(sources.refuse(&key.text, "{...}", "no sources: discs know no heat from inside"));
+            return Err(sources.refuse(&key.text, "{...}", "no sources: discs have no heat from inside"));
         }
     }
     Ok(())

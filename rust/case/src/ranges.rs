@@ -51,7 +51,7 @@ pub fn temperature_with(gas: GasName, key: &str, value: f64) -> Result<(), CaseE
     let high = high.min(1e5);
     allow(key, value, (low..=high).contains(&value), || {
         let (low, high, gas) = (number(low), number(high), gas.as_str());
-        format!("{low} to {high} K, for which {gas} is known; temperatures are in Kelvin")
+        format!("{low} to {high} K, the table of {gas}; temperatures are in Kelvin")
     })
 }
 

@@ -188,7 +188,7 @@ pub fn packing_rows(packing: &Packing) -> Vec<[String; 3]> {
         pascal("stress along x [Pa], compression positive", packing.stress[0]),
         pascal("stress along y [Pa]", packing.stress[1]),
         row("fabric index F_xx - F_yy", packing.fabric_index, 4),
-        row("conductivity of the bed over that of the grains", packing.conductivity, 4),
+        row("conductivity of the bed over the conductivity of the grains", packing.conductivity, 4),
     ]
 }
 

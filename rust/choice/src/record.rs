@@ -115,11 +115,11 @@ impl Record {
             let _ = writeln!(text, "{:8.3}  {}: {}", share.percent, share.source, share.how);
         }
         let asked = plain(self.accuracy);
-        let _ = writeln!(text, "{:8.3}  all together, {asked} % asked for", self.found.total());
+        let _ = writeln!(text, "{:8.3}  all together, {asked} % requested", self.found.total());
         if let Some(wanted) = self.pressure_accuracy {
             let _ = writeln!(
                 text,
-                "          {wanted} % of the range of p asked for: an error of p counts {:.3} times",
+                "          {wanted} % of the range of p requested: an error of p counts {:.3} times",
                 self.accuracy / wanted
             );
         }

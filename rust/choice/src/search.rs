@@ -309,7 +309,7 @@ impl<'a> Search<'a> {
         }
         if directions.is_empty() {
             self.found.notes.push(
-                "the error of the mesh is not known, and no part of the estimate and the bands".to_string(),
+                "the error of the mesh is unknown, and no part of the estimate and the bands".to_string(),
             );
         }
         let reason = match (worst.is_some(), steps.enough) {

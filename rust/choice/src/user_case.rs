@@ -152,7 +152,7 @@ fn refuse_regions(folder: &Path) -> Result<(), ChoiceError> {
         return Ok(());
     }
     let problem =
-        "the bed has solids beside it, allowed where settings are looked for: a bed alone".to_string();
+        "the bed has solids next to it, allowed where settings are searched: a bed alone".to_string();
     Err(CaseError::Read { file, problem }.into())
 }
 
@@ -186,7 +186,7 @@ impl UserCase {
         let wanted = |key: &str| match solution.get("msddFoam") {
             Some(Entry::Dictionary(own)) if own.get(key).is_some() => {
                 let [least, most] = ACCURACIES;
-                let allowed = format!("0 (not asked for), or {least} to {most} %");
+                let allowed = format!("0 (no request), or {least} to {most} %");
                 let known = |value: f64| value == 0.0 || (least..=most).contains(&value);
                 let value = own.number(key, known, &allowed)?;
                 Ok::<_, CaseError>(Some(value).filter(|&value| value > 0.0))

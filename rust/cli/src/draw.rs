@@ -1,7 +1,8 @@
-//! `msdd rve draw`: the grains of a state with the forces between them, alone or beside a field of the solver, as SVG.
+//! `msdd rve draw`: the grains of a state with the forces between them, alone or next to a field of the solver, as SVG.
 
 use crate::error::CliError;
 use clap::Args;
+use msdd_draw::{Cells, Map, Sheet, maps, sheet};
 use msdd_files::{read_text, write};
 use msdd_reference::solver::nonuniform;
 use msdd_rve::{Simulation, state};
@@ -40,46 +41,26 @@ fn cells(text: &str) -> Result<[usize; 2], String> {
     pair.ok_or_else(|| "expected two numbers of cells, for example 100,30".to_string())
 }
 
-/// Side of the box of grains and width of the field, and gap between them [px].
-const BOX: f64 = 400.0;
-const FIELD: f64 = 620.0;
-const GAP: f64 = 60.0;
-/// Height of the captions above and of the scale below [px].
-const HEAD: f64 = 30.0;
-const FOOT: f64 = 44.0;
-/// Width of a line at the mean normal force [px], and largest width.
-const LINE: f64 = 1.4;
-const WIDEST: f64 = 7.0;
-/// Number of colours of the field.
-const SHADES: usize = 48;
-/// Ends and middle of the colour scale: blue, white and red, which colour-blind readers can tell apart.
-const COLD: [f64; 3] = [33.0, 102.0, 172.0];
-const MIDDLE: [f64; 3] = [247.0, 247.0, 247.0];
-const HOT: [f64; 3] = [178.0, 24.0, 43.0];
+/// Side of the box of grains, and heights of its caption and of the whole figure \[px\].
+const BOX: f64 = 440.0;
+const HEAD: f64 = 34.0;
+const TALL: f64 = 490.0;
+/// From the left edge to the box \[px\].
+const LEFT: f64 = 20.0;
+/// Width of a line at the mean normal force \[px\], and largest width.
+const LINE: f64 = 1.2;
+const WIDEST: f64 = 5.0;
 
 pub fn run(arguments: &Arguments) -> Result<(), CliError> {
     let problem = |text: String| CliError::Message(format!("{}: {text}", arguments.state.display()));
     let simulation = state::from_json(&read_text(&arguments.state)?).map_err(|e| problem(e.to_string()))?;
-    let field = match arguments.field.as_ref().zip(arguments.cells) {
-        Some((path, cells)) => {
-            let values = scalars(&read_text(path)?, cells)
-                .map_err(|text| CliError::Message(format!("{}: {text}", path.display())))?;
-            Some((values, cells[0]))
-        }
-        None => None,
-    };
-    let mut body = grains(&simulation);
-    let mut width = BOX + 2.0;
-    if let Some((values, columns)) = &field {
-        body += &map(values, *columns, &arguments.label);
-        width += GAP + FIELD + 20.0;
+    let mut figures = vec![grains(&simulation)];
+    if let Some((path, cells)) = arguments.field.as_ref().zip(arguments.cells) {
+        let values = scalars(&read_text(path)?, cells)
+            .map_err(|text| CliError::Message(format!("{}: {text}", path.display())))?;
+        figures.push(map(&values, cells, &arguments.label));
     }
-    let height = HEAD + BOX + FOOT;
-    let svg = format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {width} {height}\" font-family=\"sans-serif\" \
-         font-size=\"15\"><rect width=\"{width}\" height=\"{height}\" fill=\"white\"/>\n{body}</svg>\n"
-    );
-    Ok(write(&arguments.out, svg.as_bytes())?)
+    Ok(write(&arguments.out, sheet(&figures, 2).as_bytes())?)
 }
 
 /// The values of a scalar field, if there are as many as `cells`.
@@ -93,19 +74,21 @@ fn scalars(text: &str, cells: [usize; 2]) -> Result<Vec<f64>, String> {
     }
 }
 
-/// SVG of the grains in grey and of the contact forces as black lines.
+/// The grains in grey and the contact forces as black lines.
 fn grains(simulation: &Simulation) -> String {
     let [x0, x1, y0, y1] = simulation.walls.position;
     let scale = BOX / (x1 - x0).max(y1 - y0);
     let (width, height) = (scale * (x1 - x0), scale * (y1 - y0));
-    let top = HEAD + BOX - height;
-    let at = |x: f64, y: f64| (1.0 + scale * (x - x0), HEAD + BOX - scale * (y - y0));
+    let at = |x: f64, y: f64| (LEFT + scale * (x - x0), HEAD + height - scale * (y - y0));
+    let frame = format!("x=\"{LEFT}\" y=\"{HEAD}\" width=\"{width:.1}\" height=\"{height:.1}\"");
+    let title = format!("A box of {} grains, and the forces between them", simulation.discs.len());
     let mut svg = format!(
-        "<clipPath id=\"box\"><rect x=\"1\" y=\"{top:.1}\" width=\"{width:.1}\" height=\"{height:.1}\"/></clipPath>\n\
-         <text x=\"1\" y=\"20\">a box of {} grains, and the forces between them</text>\n<g clip-path=\"url(#box)\">\n",
-        simulation.discs.len()
+        "<svg viewBox=\"0 0 480 {TALL}\" xmlns=\"http://www.w3.org/2000/svg\" role=\"img\" aria-label=\"{title}\" \
+         font-family=\"sans-serif\">\n<rect width=\"480\" height=\"{TALL}\" fill=\"#fff\"/>\n\
+         <clipPath id=\"box\"><rect {frame}/></clipPath>\n\
+         <text x=\"{LEFT}\" y=\"20\" font-size=\"16\">{title}</text>\n<g clip-path=\"url(#box)\">\n\
+         <g fill=\"#dde3ea\" stroke=\"#aeb8c4\" stroke-width=\"0.5\">\n"
     );
-    svg += "<g fill=\"#dde3ea\" stroke=\"#aeb8c4\" stroke-width=\"0.5\">\n";
     for disc in &simulation.discs {
         let (x, y) = at(disc.x, disc.y);
         let _ = writeln!(svg, "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"{:.1}\"/>", scale * disc.radius);
@@ -124,90 +107,25 @@ fn grains(simulation: &Simulation) -> String {
         let _ =
             writeln!(svg, "<path d=\"M{x1:.1} {y1:.1}L{x2:.1} {y2:.1}\" stroke-width=\"{thickness:.2}\"/>");
     }
-    svg + &format!(
-        "</g></g>\n<rect x=\"1\" y=\"{top:.1}\" width=\"{width:.1}\" height=\"{height:.1}\" fill=\"none\" stroke=\"black\"/>\n"
-    )
+    svg + &format!("</g></g>\n<rect {frame} fill=\"none\" stroke=\"#666\"/>\n</svg>\n")
 }
 
-/// SVG of the field in colours with the scale below. Neighbouring cells of a row with the same colour are one rectangle.
-fn map(values: &[f64], columns: usize, label: &str) -> String {
-    let (low, high) =
-        values.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), &v| (l.min(v), h.max(v)));
-    let shade =
-        |v: f64| ((v - low) / (high - low).max(1e-300) * SHADES as f64).min(SHADES as f64 - 1.0) as usize;
-    let cell = FIELD / columns as f64;
-    let rows = values.len() / columns;
-    let (left, top) = (BOX + GAP, HEAD + 0.5 * (BOX - cell * rows as f64));
-    let mut svg = format!(
-        "<text x=\"{left}\" y=\"{:.1}\">the solver's field: {label}</text>\n<g shape-rendering=\"crispEdges\">\n",
-        top - 10.0
-    );
-    for (row, line) in values.chunks(columns).enumerate() {
-        let y = top + cell * (rows - 1 - row) as f64;
-        let mut begin = 0;
-        while begin < columns {
-            let same = line[begin..].iter().take_while(|&&v| shade(v) == shade(line[begin])).count();
-            let (x, width) = (left + cell * begin as f64, cell * same as f64);
-            let _ = writeln!(
-                svg,
-                "<rect x=\"{x:.1}\" y=\"{y:.1}\" width=\"{width:.1}\" height=\"{cell:.1}\" fill=\"{}\"/>",
-                colour(shade(line[begin]))
-            );
-            begin += same;
-        }
-    }
-    let bottom = top + cell * rows as f64;
-    for k in 0..SHADES {
-        let step = 0.5 * FIELD / SHADES as f64;
-        let _ = writeln!(
-            svg,
-            "<rect x=\"{:.1}\" y=\"{:.1}\" width=\"{step:.1}\" height=\"12\" fill=\"{}\"/>",
-            left + step * k as f64,
-            bottom + 16.0,
-            colour(k)
-        );
-    }
-    let _ = writeln!(
-        svg,
-        "</g>\n<text x=\"{left}\" y=\"{:.1}\">{}</text><text x=\"{:.1}\" y=\"{:.1}\" text-anchor=\"end\">{}</text>",
-        bottom + 46.0,
-        brief(low),
-        left + 0.5 * FIELD,
-        bottom + 46.0,
-        brief(high)
-    );
-    let _ = writeln!(
-        svg,
-        "<rect x=\"{left}\" y=\"{top:.1}\" width=\"{FIELD}\" height=\"{:.1}\" fill=\"none\" stroke=\"black\"/>",
-        cell * rows as f64
-    );
-    svg
-}
-
-fn colour(shade: usize) -> String {
-    let share = 2.0 * shade as f64 / (SHADES - 1) as f64;
-    let (from, to, w) = if share < 1.0 { (COLD, MIDDLE, share) } else { (MIDDLE, HOT, share - 1.0) };
-    let [r, g, b] = [0, 1, 2].map(|k| (from[k] + w * (to[k] - from[k])).round() as u8);
-    format!("#{r:02x}{g:02x}{b:02x}")
-}
-
-/// A number with three significant digits.
-fn brief(value: f64) -> String {
-    let digits = (2.0 - value.abs().max(1e-300).log10().floor()).clamp(0.0, 9.0) as usize;
-    format!("{value:.digits$}")
+/// The field on square cells.
+fn map(values: &[f64], [columns, rows]: [usize; 2], label: &str) -> String {
+    let wide = columns + 1;
+    let points = (0..wide * (rows + 1)).map(|k| [(k % wide) as f64, (k / wide) as f64]).collect();
+    let corners = |k: usize| {
+        let first = k % columns + k / columns * wide;
+        vec![first, first + 1, first + 1 + wide, first + wide]
+    };
+    let cells = Cells::Polygons { points, cells: (0..values.len()).map(corners).collect() };
+    let sheet = Sheet { title: "The solver's field", label, ..Sheet::default() };
+    maps(&sheet, &[Map { name: "", cells: &cells, values }])
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn cells_of_one_shade_are_joined_and_the_ends_are_cold_and_hot() {
-        let svg = map(&[0.0, 0.0, 0.0, 100.0], 2, "T [K]");
-        // Three rectangles for the cells, those of the scale, and the frame.
-        assert_eq!(svg.matches("<rect").count(), 3 + SHADES + 1, "{svg}");
-        assert!(svg.contains("#2166ac") && svg.contains("#b2182b") && svg.contains(">100</text>"), "{svg}");
-    }
 
     #[test]
     fn a_field_of_another_mesh_is_refused() {

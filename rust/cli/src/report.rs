@@ -33,7 +33,7 @@ pub struct Arguments {
     /// Run no simulations: draw the results that the cache has.
     #[arg(long)]
     draw: bool,
-    /// The case folder, with its mesh, whose chart of speed against accuracy is wanted, instead of those of the cases of the
+    /// The case folder, with its mesh, whose chart of speed against accuracy is wanted, instead of the cases of the
     /// paper.
     #[arg(long, value_name = "DIR")]
     case: Option<PathBuf>,

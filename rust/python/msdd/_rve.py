@@ -226,7 +226,7 @@ def pack(
         of the box at which the walls stop [-], overlaps counted once; 0.1 to 0.17 is usual
     compression
         "isotropic" (walls close in along x and y), "horizontal" (along x), "intermediate" (twice as fast along x) or "sheared"
-        (along x, while those of y open an eighth as fast)
+        (along x, while y opens an eighth as fast)
     boundary
         "walls" or "periodic"
     radius_min, radius_max

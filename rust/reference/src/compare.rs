@@ -153,7 +153,7 @@ pub fn temperature_errors(run: &[Vec<f64>], discs: &Results, range: f64) -> Resu
         return wrong(
             "last time of the solver's run",
             format!("{last} s"),
-            format!("about {end} s, that of the discs"),
+            format!("about {end} s, the end of the discs"),
         );
     }
     let error = |probe: usize| {

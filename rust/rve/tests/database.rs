@@ -223,7 +223,7 @@ fn a_path_ends_where_the_box_bears_no_load() {
     for path in dataset.records.chunk_by(|a, b| (a.packing, a.ramp) == (b.packing, b.ramp)) {
         let Some(end) = path.iter().position(|row| row.outcome == "unjammed") else { continue };
         ended += 1;
-        let reason = format!("the path ended at stop {}, which bears no load", path[end].stop);
+        let reason = format!("the path ended at stop {}, without load", path[end].stop);
         assert!(path[end].porosity.is_some() && path[end].failure.is_none());
         for row in &path[end + 1..] {
             assert_eq!((row.outcome.as_str(), row.failure.as_ref()), ("failed", Some(&reason)));

@@ -164,7 +164,7 @@ fn a_path_ends_where_the_box_bears_no_load() {
     let after: Vec<_> = records.iter().filter(|r| r.packing == packing && r.stop > stop).collect();
     assert!(!after.is_empty());
     for record in after {
-        let expected = format!("the path ended at stop {stop}, which bears no load");
+        let expected = format!("the path ended at stop {stop}, without load");
         assert_eq!(record.failure.as_deref(), Some(expected.as_str()));
         assert!(record.outcome == "failed" && record.pressure.is_none());
     }

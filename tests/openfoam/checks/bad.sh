@@ -98,13 +98,13 @@ bad_spheres() {
     bad_sphere "spheres that conduct less than the gas" 'gas'
     spheres_are "$good" "$walls" 'restStress { lateral 0.5; }'
     echo 'FoamFile { version 2.0; format ascii; class uniformDimensionedVectorField; object g; } dimensions [0 1 -2 0 0 0 0]; value (0 -9.81 0);' > constant/g
-    bad_sphere "stress given twice" "Entry 'restStress' stands beside the field stress"
+    bad_sphere "stress given twice" "Entry 'restStress' is given together with the field stress"
     sed -i 's/uniformDimensionedVectorField/dictionary/' constant/g
     bad_sphere "gravity of another class" 'is left out, allowed: a file with class uniformDimensionedVectorField'
     rm constant/g
     spheres_are "$good" "$walls"
     echo 'internalField uniform (1e4 0 0 1e4 0 1e4);' >> 0/stress
-    bad_sphere "tension" 'because grains cannot bear tension'
+    bad_sphere "tension" 'because grains cannot carry tension'
     spheres_are "$good" "$walls"
     echo 'internalField uniform 0.9;' >> 0/porosity
     bad_sphere "a porosity of no packing" 'solid_fraction'

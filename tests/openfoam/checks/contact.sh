@@ -83,8 +83,8 @@ spheres_in_space() {
     [ "$(foam_api)" -lt 2606 ] || return 0 # newer solvers take the whole tensor
     # The same stresses along other axes
     block_region block-turned '-2.6e6 0 0.5e6 -2.6e6 0 -3.1e6'
-    region_message 'has a component K_xy, K_xz or K_yz besides those along the axes'
-    check "refused: K_xz of spheres, with the size of the error: $(grep -o 'errs by up to [0-9.]* %' log.bad)" test -n "$(grep -o 'errs by up to' log.bad)"
+    region_message 'has a component K_xy, K_xz or K_yz in addition to those along the axes'
+    check "refused: K_xz of spheres, with the size of the error: $(grep -o 'error of the heat flux is up to [0-9.]* %' log.bad)" test -n "$(grep -o 'error of the heat flux is up to' log.bad)"
     tr -s '\n ' ' ' < log.bad | grep -o 'coordinateSystem {.*; } }' >> constant/bed/thermophysicalProperties
     logged chtMultiRegionFoam
     e=$(sed -n 's/Largest relative error of the heat flux by what the axes leave out: //p' log | tail -n 1)

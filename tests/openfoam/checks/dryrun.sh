@@ -129,7 +129,7 @@ doubtful_beds() {
     cp good-porosity 0/porosity
     cp 0/T good-T
     sed -i 's/350/2500/' 0/T
-    check "warning: a gas too hot" doubted 'T gets to 2.5e+03 K, and the gas is known up to 2e+03 K'
+    check "warning: a gas too hot" doubted 'T gets to 2.5e+03 K, and the gas is tabulated up to 2e+03 K'
     cp good-T 0/T
     changed warn-weight
     mesh_is '12 6 1'

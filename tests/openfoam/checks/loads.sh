@@ -123,11 +123,11 @@ unknown_states() {
     sed -i 's/type pressure; pressure constant 1e4;/type frictionless; displacement table ((0 (0 0 0)) (200 (-1e-4 0 0)));/' constant/granularProperties
     logged msddFoam
     check "loads: the time without load is told" grep -q "Warning: the bed was nearly without load, .* from [0-9.e-]* to [0-9.]* s" log
-    check "loads: grains that lose touch are told" grep -q "Warning: grains in 40 of 40 cells bear no load" log
+    check "loads: grains that lose touch are told" grep -q "Warning: grains in 40 of 40 cells carry no load" log
     check "loads: a bed without heat has no balance of it" grep -q "Heat: none went into the bed" log
     bed_of_spheres tense 300 paper 20 ''
     sed -i 's/-1e4/1e4/g' 0/stress
-    check "loads: tension at the start is refused with spheres" refused "allowed: at most 0, because grains cannot bear tension"
+    check "loads: tension at the start is refused with spheres" refused "allowed: at most 0, because grains cannot carry tension"
 }
 heavy_bed() { # a stress given in kPa, as if these were Pa, is far below what the spheres weigh: 0.59*2500*9.81*0.4 = 5788 Pa at the bottom
     local pressure said

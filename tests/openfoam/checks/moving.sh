@@ -159,7 +159,7 @@ weights() {
     grains 'restStress { lateral 0.5; }'
     gravity_is '0 0 -9.81'
     cube 2
-    check "refused: restStress beside the field stress" refused "Entry 'restStress' stands beside the field stress"
+    check "refused: restStress beside the field stress" refused "Entry 'restStress' is given together with the field stress"
     rm constant/g
     check "refused: restStress without gravity" refused "Entry 'restStress' needs gravity"
     gravity_is '0 0 -9.81'

@@ -19,7 +19,7 @@ check "clamp: goes on, and inTrainingRange shows the cells" \
     test "$(field 1/inTrainingRange | awk '$1 == 0 { out++ } $1 == 1 { in_++ } END { print (out > 0 && in_ > 0) }')" = 1
 check "clamp: counted" grep -q '"clamped_queries": [1-9]' postProcessing/msddFoam/summary.json
 check "clamp: the end of the run says how many states were outside, and how many cells are" grep -q -- \
-    "- Range: .* % of the states .* lay outside .* At the end $(field 1/inTrainingRange | grep -cx 0) of 72 cells are outside" log
+    "- Range: .* % of the states were outside .* At the end $(field 1/inTrainingRange | grep -cx 0) of 72 cells are outside" log
 check "clamp: no warning" test "$(grep -c 'FOAM Warning' log)" = 0
 
 hot region-former 'porosity { below clamp; } elasticCompression { above clamp; } thermalStrain { above clamp; }'

@@ -282,7 +282,7 @@ region_refusals() {
     region_refused "a fluid region named as bed" 'Region bed is listed as fluid in "constant/regionProperties"'
     refused_bed crossed 'surrogate { type constant; constantCoeffs { conductivity (2 0.5 0 1 0 0); } }'
     [ "$(foam_api)" -ge 2606 ] || region_refused "K_xy, with the size of the error" \
-        'errs by up to 63.1 %, allowed: 1 % (crossTolerance 0.01)'
+        'error of the heat flux is up to 63.1 %, allowed: 1 % (crossTolerance 0.01)'
     echo 'coordinateSystem { type cartesian; origin (0 0 0); rotation { type axes; e1 (0.923879532511 0.382683432365 0); e3 (0 0 1); } }' >> constant/bed/thermophysicalProperties
     check "accepted: the same K in its principal axes" bash -c 'chtMultiRegionFoam > log.bad 2>&1'
     refused_bed moving 'mechanics equilibrium;'

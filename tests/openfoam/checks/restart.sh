@@ -159,7 +159,7 @@ moved_fields() { # mapFields takes no fields at points: a bed that has moved beg
     logged mapFields "$source" -sourceTime 0.5 -consistent
     logged msddFoam
     check "fields of a bed that has moved, without its displacement: said in the log and at the end" \
-        test "$(grep -c 'The fields of time 0 are those of grains that have moved (areaRatio ' log)" = 2
+        test "$(grep -c 'The fields of time 0 belong to grains that have moved (areaRatio ' log)" = 2
     (cd "$source" && controls 'writeInterval 1; endTime 0.55;' && logged msddFoam)
     e=$(paste <(field "$source/0.55/pressure") <(field 0.05/pressure) | awk '{ e = $1 - $2; e = e < 0 ? -e : e; d = e > d ? e : d; m = $1 > m ? $1 : m } END { print (NR > 9 ? d/m : "nan") }')
     check "the pressure is that of the run that goes on, within $e <= 0.02" below "$e" 0.02
@@ -217,7 +217,7 @@ warmed() { # the grains grow from initialTemperature to T: as in a run that heat
     logged msddFoam
     check "grains that may move, heated alike: $(mean_of pressure 0.05) Pa, with none that move $p" is_within "$(awk "BEGIN { print $(mean_of pressure 0.05)/$p }")" 0.98 1.02
     packed_at warmed-twice field 'initialTemperature 50;'
-    check "field and key: refused" refused "Entry 'initialTemperature' stands beside the field of this name"
+    check "field and key: refused" refused "Entry 'initialTemperature' is given together with the field of this name"
 }
 
 named_start() { # restarts with startTime instead of latestTime

@@ -242,7 +242,7 @@ fn held(scene: &SphereCase) -> String {
         friction => format!("rigid walls: {}", wall::sentence(friction)),
     };
     let give = match scene.slack_layer > 0.0 {
-        true => format!("; spheres give way by {} diameters at top and bottom", plain(scene.slack_layer)),
+        true => format!("; a slack of {} diameters at top and bottom", plain(scene.slack_layer)),
         false => String::new(),
     };
     format!("{top}, the side is {side}; {friction}{give}")

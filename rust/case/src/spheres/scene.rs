@@ -108,7 +108,7 @@ pub fn check_pressure(spheres: Spheres, pressure: f64) -> Result<(), CaseError> 
     let short = |value: f64| number(rounded(value, 3));
     let [least, most] = PouredBed::new(spheres, pressure)?.pressures();
     allow("pressure", pressure, (least..=most).contains(&pressure), || {
-        format!("{} to {} Pa, which the law of spheres knows of these", short(least), short(most))
+        format!("{} to {} Pa, the range of the law for these", short(least), short(most))
     })
 }
 

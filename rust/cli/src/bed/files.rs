@@ -39,7 +39,7 @@ const SUMMARY: [Column; 9] = [
     (
         "stages",
         "s for `time`, else -",
-        "for each stage `name`, `at_rest`, simulated `time`, `steps`, and `agitation`: the kinetic energy at its end over that of falling by a radius",
+        "for each stage `name`, `at_rest`, simulated `time`, `steps`, and `agitation`: the kinetic energy at its end over the energy of falling by a radius",
     ),
     (
         "slabs",

@@ -67,12 +67,12 @@ pub fn run(arguments: &Arguments) -> Result<(), CliError> {
 fn notes(scene: &DemCase) -> Vec<String> {
     let friction = (scene.grains.wall_friction > 0.0 && scene.shell.is_some()).then(|| {
         format!(
-            "walls have a friction of {}; a side that gives way has none in the solver's case",
+            "walls have a friction of {}; a compliant side has none in the solver's case",
             scene.grains.wall_friction
         )
     });
     let grains = (scene.grains.friction != 0.3).then(|| {
-        format!("spheres have a friction of {}; the law of spheres knows 0.3", scene.grains.friction)
+        format!("spheres have a friction of {}; the law of spheres is valid for 0.3", scene.grains.friction)
     });
     let sides =
         scene.sides.is_some().then(|| "the base is strained; in the solver's case it stays".to_string());
@@ -92,7 +92,7 @@ pub fn files(
 ) -> Result<Vec<File>, CliError> {
     let geometry = Geometry::new(&file_in(folder), scene, start.depth)?;
     let porosity = geometry.porosity(start);
-    let origin = format!("As in DEM at the start, from {}: written by 'msdd bed case'", start.file.display());
+    let origin = format!("From DEM at the start: {}: written by 'msdd bed case'", start.file.display());
     let stress = geometry.tensor(start.stress.map(|stress| -stress));
     let text = |path: &'static str, text: String| File { path, text, program: false };
     let dictionary = |path: &'static str, body: String| {

@@ -77,7 +77,7 @@ pub fn compute_packings(
     for (number, &seed) in seeds.iter().enumerate() {
         let (begin, target) = (origin(&input, seed), file(seed));
         if let Some(known) = read_text(&target).ok().filter(|text| text.starts_with(&begin)) {
-            outln!("packing {} of {count}, seed {seed}: known from {}", number + 1, target.display());
+            outln!("packing {} of {count}, seed {seed}: taken from {}", number + 1, target.display());
             tables.push(known);
             continue;
         }
@@ -131,7 +131,7 @@ fn simulate(folder: &Path, scene: &DemCase, threads: usize) -> Result<String, Cl
 fn start(scene: &DemCase, mobilisation: f64, [first, second, third]: [f64; 3]) -> String {
     let axes = if scene.record.radius.is_some() { "radius, around the axis, axis" } else { "x, y, z" };
     format!(
-        "friction at the start: {mobilisation:.3} of what the contacts bear before they slide, for the law of spheres 'mobilised {:.2};'\n\
+        "friction at the start: {mobilisation:.3} of the force at which the contacts slide, for the law of spheres 'mobilised {:.2};'\n\
          fabric at the start (key 'fabric'): {first:.4}, {second:.4}, {third:.4} along {axes}\n",
         mobilised(mobilisation)
     )

@@ -45,7 +45,7 @@ pub struct CommonOptions {
     pub(super) cell_size: Option<f64>,
     /// Left wall: a temperature [K], `insulated`, temperatures over time such as `0:300,60:350` (300 K at 0 s, 350 K at 60 s,
     /// linear between them), a heat transfer coefficient [W/(m2 K)] and the temperature outside such as `h=200,T=300`, or a heat
-    /// flux into the bed [W/m2] such as `q=500`. Allowed: temperatures of 0 to 1e5; with spheres the range in which the gas is known (air 200 to 2000, helium
+    /// flux into the bed [W/m2] such as `q=500`. Allowed: temperatures of 0 to 1e5; with spheres the range of the gas (air 200 to 2000, helium
     /// 273 to 1800). Default: 50 K above the start; insulated if another wall is given.
     #[arg(long, value_name = "WALL", value_parser = parse_wall, help_heading = "Walls and temperatures")]
     pub(super) left: Option<WallOverTime>,

@@ -118,13 +118,13 @@ impl GrainWishes {
             self.given_radius(),
         ];
         let questions = [
-            ("The density of a grain, not that of the bed.", "Density [kg/m3]"),
+            ("The density of a grain, not of the bed.", "Density [kg/m3]"),
             (
                 "How stiff contacts are. The force between discs is Young's modulus times mean radius times overlap; that between \
                  spheres follows Hertz.",
                 "Young's modulus [Pa]",
             ),
-            ("The thermal conductivity of a grain, not that of the bed.", "Thermal conductivity [W/(m K)]"),
+            ("The thermal conductivity of a grain, not of the bed.", "Thermal conductivity [W/(m K)]"),
             ("The specific heat capacity of a grain.", "Specific heat capacity [J/(kg K)]"),
             (
                 "The linear thermal expansion coefficient. Of discs, times the change of temperature, it should stay below 0.05.",

@@ -17,7 +17,7 @@ pub(crate) use solve::{attempt, beside};
 
 #[derive(Subcommand)]
 pub enum Command {
-    /// Make a new case: asks for options that are not given, finds the initial packing, and writes a folder that is ready to
+    /// Make a new case: prompts for options that are not given, finds the initial packing, and writes a folder that is ready to
     /// run.
     ///
     /// The bed is of discs in the plane, packed by DEM, or, with --spheres, of equal spheres with gas between them. These fill
@@ -40,7 +40,7 @@ pub enum Command {
     ///
     /// The results, with 90 % bands, are in the folder FOLDER.chosen.
     Solve(solve::Arguments),
-    /// Show the results of a run: writes a page with key numbers, maps, curves and what to know.
+    /// Show the results of a run: writes a page with key numbers, maps, curves and the end of its log.
     Show(show::Arguments),
     /// Print a table that a function object has written, as one whole over all parts of the run. The exit status is 1 if
     /// there is no such table, or if parts have other points or columns.

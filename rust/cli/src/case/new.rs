@@ -23,7 +23,7 @@ const PACKINGS: u32 = 16;
 
 #[derive(Args)]
 #[command(
-    after_help = "On a terminal the program asks for everything that is not given as an option, and proposes a value; an empty answer \
+    after_help = "On a terminal the program prompts for everything that is not given as an option, and proposes a value; an empty answer \
 takes the proposal. Without a terminal, or with --yes, all proposals are taken.
 
 Examples:
@@ -39,10 +39,10 @@ pub struct Arguments {
     /// The new case folder; it must not exist yet, or be empty. Default: required, except with --list-materials.
     #[arg(required_unless_present = "list_materials")]
     folder: Option<PathBuf>,
-    /// Ask nothing: take the proposed value of everything that is not given as an option.
+    /// No questions: take the proposed value of everything that is not given as an option.
     #[arg(long, visible_alias = "non-interactive", conflicts_with = "ask")]
     yes: bool,
-    /// Ask even if the input is not a terminal; answers are read line by line.
+    /// Prompt even if the input is not a terminal; answers are read line by line.
     #[arg(long)]
     ask: bool,
     /// Write into a folder that is not empty: files of the same name are replaced, all others stay.

@@ -50,7 +50,7 @@ pub struct Arguments {
     /// Find out whether the grains have to move, whatever the case says.
     #[arg(long)]
     choose_mechanics: bool,
-    /// Search again, even if the choice for this case and this accuracy is known.
+    /// Search again, even if the choice for this case and this accuracy exists.
     #[arg(long)]
     again: bool,
     /// Only search; do not run what was chosen.
@@ -111,7 +111,7 @@ fn solve(scene: &UserCase, wanted: Wanted, arguments: &Arguments) -> Result<(), 
     trial::clear(&beside(scene, "trial"))?;
     let (mut record, seen) = match earlier {
         Some(earlier) => {
-            outln!("The choice for this case and {} % is known: no search.", number(accuracy));
+            outln!("The choice for this case and {} % exists: no search.", number(accuracy));
             earlier
         }
         None => {
@@ -218,7 +218,7 @@ impl Wanted {
             false => (self.pressure.unwrap_or(missed.asked), "p"),
         };
         format!(
-            "{asked} % of the range of {name} was asked; {:.2} % is the best that can be had",
+            "{asked} % of the range of {name} was requested; {:.2} % is the best that can be reached",
             missed.best
         )
     }

@@ -81,7 +81,7 @@ fn print_symmetry(means: &[Mean]) {
 
 fn print(report: &Report) {
     print_symmetry(&report.symmetry);
-    outln!("Size: packed states against those of the most frequent size, at equal porosity and fabric index");
+    outln!("Size: packed states against the most frequent size, at equal porosity and fabric index");
     for size in &report.sizes {
         outln!(
             "  {:>6} / {} discs  {:<30} {:+.2} % +- {:.2} % ({} packings)",

@@ -50,7 +50,7 @@ pub fn run(arguments: &Arguments) -> Result<(), CliError> {
     let points = points(&read(&arguments.database)?.records);
     if points.is_empty() {
         let file = arguments.database.display();
-        return Err(CliError::Message(format!("{file}: holds no thermal states that bear load")));
+        return Err(CliError::Message(format!("{file}: holds no loaded thermal states")));
     }
     for (name, panels) in [("inputs.svg", inputs(&points)), ("outputs.svg", outputs(&points))] {
         let path = arguments.out.join(name);

@@ -45,7 +45,7 @@ pub enum Command {
     /// Print a table of results: mean and scatter over the seeds; or the differences of two runs.
     Summary(summary::Arguments),
     /// Print the differences of a run of the solver from DEM in the temperatures at the probes. Results with
-    /// other grains than those of the case are refused; another start is a warning.
+    /// grains other than in the case are refused; another start is a warning.
     Compare(compare::Arguments),
     /// Make the reference scenes of a plan, and compare the solver with them.
     Scenes(scenes::Arguments),

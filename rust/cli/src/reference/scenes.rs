@@ -42,7 +42,7 @@ pub struct Arguments {
     /// how they do in all scenes; not with --only.
     #[arg(long, value_name = "FILE", conflicts_with = "only")]
     bands: Option<PathBuf>,
-    /// Ask for accuracies of 5, 2 and 1 % in the first packing of each scene, compare what is chosen with the discs, and
+    /// Request accuracies of 5, 2 and 1 % in the first packing of each scene, compare what is chosen with the discs, and
     /// write that into this file (CSV).
     #[arg(long, value_name = "FILE")]
     requests: Option<PathBuf>,

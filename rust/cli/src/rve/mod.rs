@@ -27,7 +27,7 @@ pub enum Command {
     /// Strain a packed state: expand or contract the grains, or deform the box.
     Expand(ExpandArguments),
     /// Print the averages of a state as JSON: of spheres the columns of their database, with stresses over E* and
-    /// conductivities over those of solid and gas.
+    /// conductivities over solid and gas.
     Homogenise(HomogeniseArguments),
     /// Measure the conductivity of a packing by conducting heat through all of it, grains at rest; prints it next to the
     /// homogenised conductivity as JSON.

@@ -45,7 +45,7 @@ pub fn pack(arguments: &PackArguments, count: usize) -> Result<(), CliError> {
     let (asked, reached) = (arguments.of_spheres.pressure, averages.pressure());
     if !(NEAR[0]..=NEAR[1]).contains(&(reached / asked)) {
         outln!(
-            "The pressure was asked to be {asked:e} E* and is {reached:.2e} E*: so near to where contacts open, boxes of {count} spheres come to rest at \
+            "The requested pressure was {asked:e} E* and is {reached:.2e} E*: so near to where contacts open, boxes of {count} spheres come to rest at \
              others. More spheres, or a higher pressure, are met better."
         );
     }

@@ -165,7 +165,7 @@ fn print_along(found: &[PathErrors], is_trained_on_it: bool) {
 /// Errors of the conductivities of known states, and those along paths where less is known at the start.
 fn print_of_state(found: &[PathErrors]) {
     outln!(
-        "errors of known states, %; and along the paths where solid fraction, stress and mobilised friction alone are known at their start, %"
+        "errors of given states, %; and along the paths where solid fraction, stress and mobilised friction alone are given at their start, %"
     );
     let of_state = ["K by contacts", "direction", "K by gas"];
     let along = ["pressure", "deviator", "K by contacts", "K by gas"];

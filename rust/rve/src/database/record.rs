@@ -17,7 +17,7 @@ row! {
     kind: Kind, "TEXT", "-", "thermal: radii change in fixed walls; mechanics: walls move; wall_shear: bottom and top slip along the grains; paths: a periodic box follows paths of strain";
     discs: u64, "INTEGER", "-", "discs in the packing";
     seed: u64, "INTEGER", "-", "seed of the packing";
-    compression: Compression, "TEXT", "-", "isotropic: walls close in x and y; horizontal: in x only; intermediate: twice as fast in x as in y; sheared: in x, while those of y open an eighth as fast";
+    compression: Compression, "TEXT", "-", "isotropic: walls close in x and y; horizontal: in x only; intermediate: twice as fast in x as in y; sheared: in x, while y opens an eighth as fast";
     target_porosity: f64, "REAL", "-", "porosity of the whole box at which the walls stopped, overlaps counted once";
     packing_friction_angle: f64, "REAL", "rad", "friction angle of the grains while the walls closed; the material's own afterwards";
     ramp: RampName, "TEXT", "-", "packed: before any strain; up, down: radii grow, shrink; up_down, down_up: back from the last stop of up, down; xx, yy: walls move along x, y; xy: shear of a periodic box; wall_shear: bottom and top move along x; others: paths of strain of a periodic box";
@@ -33,10 +33,10 @@ row! {
     step_xy: Option<f64>, "REAL", "-", "of a path: shear increment, displacement along x over height, relative to the state at from_stop";
     probe: Option<u64>, "INTEGER", "-", "of a path: 1: tried on a copy of the box, the path goes on from from_stop; 0: the path goes on from here";
     wall_slip: f64, "REAL", "m", "way of bottom and top along x since the packed state";
-    wall_slip_of_grains: Option<f64>, "REAL", "m", "wall_slip less the way of the grains that touch bottom or top, which the assembly behind them lets give way; weighted by normal force";
+    wall_slip_of_grains: Option<f64>, "REAL", "m", "wall_slip less the way of the grains that touch bottom or top, which the assembly behind them lets move; weighted by normal force";
     wall_friction: Option<f64>, "REAL", "-", "mobilised friction: tangential over normal force on the grains, along the motion, mean of bottom and top";
     region: String, "TEXT", "-", "averaging region; hull: of the centres of force-bearing discs that touch no wall; inset: box less 0.8 mean radii; cell: whole periodic cell";
-    outcome: String, "TEXT", "-", "settled; capped: step cap before balance; unjammed: bears no load; failed: see failure";
+    outcome: String, "TEXT", "-", "settled; capped: step cap before balance; unjammed: carries no load; failed: see failure";
     failure: Option<String>, "TEXT", "-", "why the stop was not reached; absent when it was";
     steps: u64, "INTEGER", "-", "time steps from the previous stop";
     unbalanced: Option<f64>, "REAL", "-", "mean resultant force over mean contact force";

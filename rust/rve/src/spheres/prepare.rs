@@ -66,7 +66,7 @@ pub enum PrepareError {
     Bed(#[from] BedError),
     #[error(transparent)]
     Failure(#[from] Failure),
-    #[error("at rest it bears a pressure over E* of {found:.3e}, allowed: within 5 % of {target:e}")]
+    #[error("at rest it has a pressure over E* of {found:.3e}, allowed: within 5 % of {target:e}")]
     Pressure { found: f64, target: f64 },
 }
 

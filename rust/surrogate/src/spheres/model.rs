@@ -348,9 +348,9 @@ impl SphereModel {
                 let borne = mean(stress);
                 let contact = mean(contact) / libm::cbrt(borne);
                 for (key, value, [least, most], allowed) in [
-                    ("pressure over that of the start", borne / pressure, TEST_PRESSURE, "0.3 to 1e4"),
+                    ("pressure over the initial one", borne / pressure, TEST_PRESSURE, "0.3 to 1e4"),
                     ("conduction by contacts over (p/E*)^(1/3)", contact, TEST_CONTACT, "0.2 to 5"),
-                    ("conductivity by gas over that of the gas", gas, TEST_GAS_CONDUCTION, "3 to 50"),
+                    ("conductivity by gas over k of the gas", gas, TEST_GAS_CONDUCTION, "3 to 50"),
                 ] {
                     if !(least..=most).contains(&value) {
                         return field(&format!("{key} of a test packing"), value, allowed);

@@ -58,8 +58,7 @@ impl Walls {
                     }
                 }
                 ("rigid" | "frictionless", _) if entry.get("displacement").is_none() => {}
-                _ => notes
-                    .push(format!("the wall '{patch}' of type {kind} does not move, nor give way, in DEM")),
+                _ => notes.push(format!("the wall '{patch}' of type {kind} neither moves nor yields in DEM")),
             }
         }
         walls.friction = frictions.iter().map(|one| one.1).fold(0.0, f64::max);

@@ -13,6 +13,9 @@ use clap::Args;
 use run::Run;
 use std::path::PathBuf;
 
+/// Most figures of a picture next to each other.
+const COLUMNS: usize = 3;
+
 #[derive(Args)]
 #[command(
     after_help = "The page is one HTML file that needs no network: open it in a browser, print it or send it. It has
@@ -73,9 +76,11 @@ fn pictures(run: &Run, arguments: &Arguments) -> Result<(), CliError> {
             there.join(", ")
         )));
     }
-    let figures: Vec<curves::Figure> =
-        wanted.iter().flat_map(|name| all.iter().filter(move |figure| figure.0 == *name)).cloned().collect();
-    let svg = picture::sheet(&figures);
+    let figures: Vec<&String> = (wanted.iter())
+        .flat_map(|name| all.iter().filter(move |figure| figure.0 == *name))
+        .map(|figure| &figure.1)
+        .collect();
+    let svg = msdd_draw::sheet(&figures, COLUMNS);
     if let Some(file) = &arguments.svg {
         msdd_files::write(file, svg.as_bytes())?;
         outln!("{}", file.display());

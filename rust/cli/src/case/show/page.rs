@@ -242,7 +242,7 @@ fn notes(run: &Run, last_alone: bool) -> String {
         View::Wedge { angle, .. } => {
             let share = std::f64::consts::TAU / angle;
             format!(
-                "The mesh is a wedge of {} degrees; heat and mass flow are those of the wedge, {} times as much in the whole bed. \
+                "The mesh is a wedge of {} degrees; heat and mass flow refer to the wedge, {} times as much in the whole bed. \
                  Maps: the section through the axis, mirrored. ",
                 significant(angle.to_degrees(), 3),
                 significant(share, 4)
@@ -252,7 +252,7 @@ fn notes(run: &Run, last_alone: bool) -> String {
             let names: Vec<String> = run.views.iter().map(View::name).collect();
             format!("Maps: cuts at {}. ", names.join(" (left) and "))
         }
-        View::Layer { .. } => "Heat is that of the thickness of the mesh. ".to_string(),
+        View::Layer { .. } => "Heat refers to the thickness of the mesh. ".to_string(),
     };
     if last_alone {
         text += "The mesh is large: maps show the last time alone. ";
@@ -264,7 +264,7 @@ fn notes(run: &Run, last_alone: bool) -> String {
         let names: Vec<String> = run.parts.iter().map(file).collect();
         let _ = write!(
             text,
-            "Regions: {}; numbers and curves are those of the first one, maps show those that have the field. ",
+            "Regions: {}; numbers and curves are of the first one, maps show regions that have the field. ",
             names.join(", ")
         );
     }

@@ -1,39 +1,12 @@
-//! Figures next to each other as one picture, SVG or PNG.
+//! A picture as PNG.
 
-use super::curves::Figure;
 use crate::error::CliError;
 use resvg::{tiny_skia, usvg};
 
-/// Width of a figure [px], and pixels of a PNG for each.
-const WIDTH: f64 = 480.0;
+/// Pixels of a PNG for each of the picture.
 const FINE: f32 = 2.0;
 /// Families that are looked for as the one without serifs.
 const FONTS: [&str; 4] = ["DejaVu Sans", "Liberation Sans", "Noto Sans", "Arial"];
-
-/// The figures in columns, each below the shortest one so far.
-pub fn sheet(figures: &[Figure]) -> String {
-    let columns = figures.len().clamp(1, 3);
-    let (mut ends, mut body) = (vec![0.0f64; columns], String::new());
-    for (_, svg) in figures {
-        let Some((height, inner)) = opened(svg) else { continue };
-        let column = (0..columns).min_by(|&a, &b| ends[a].total_cmp(&ends[b])).unwrap_or(0);
-        let (x, y) = (WIDTH * column as f64, ends[column]);
-        body += &format!("<svg x=\"{x}\" y=\"{y}\" width=\"{WIDTH}\" height=\"{height}\" {inner}");
-        ends[column] += height;
-    }
-    let (wide, tall) = (WIDTH * columns as f64, ends.into_iter().fold(1.0, f64::max));
-    format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {wide} {tall}\" width=\"{wide}\" height=\"{tall}\">\n\
-         <rect width=\"{wide}\" height=\"{tall}\" fill=\"#fff\"/>\n{body}</svg>\n"
-    )
-}
-
-/// Height of a figure, and its text after `<svg `.
-fn opened(svg: &str) -> Option<(f64, &str)> {
-    let inner = svg.strip_prefix("<svg ")?;
-    let view = inner.split_once("viewBox=\"")?.1.split_once('"')?.0;
-    Some((view.split_whitespace().nth(3)?.parse().ok()?, inner))
-}
 
 /// The picture in pixels.
 pub fn png(svg: &str) -> Result<Vec<u8>, CliError> {
@@ -56,19 +29,4 @@ pub fn png(svg: &str) -> Result<Vec<u8>, CliError> {
         .ok_or_else(|| failed("it is too large".into()))?;
     resvg::render(&tree, tiny_skia::Transform::from_scale(FINE, FINE), &mut pixels.as_mut());
     pixels.encode_png().map_err(|error| failed(error.to_string()))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn figures_are_set_in_columns() {
-        let figure = |height: u32| ("T", format!("<svg viewBox=\"0 0 480 {height}\"><path d=\"\"/></svg>\n"));
-        let svg = sheet(&[100, 50, 80, 10].map(figure));
-        for place in ["x=\"0\" y=\"0\"", "x=\"480\" y=\"0\"", "x=\"960\" y=\"0\"", "x=\"480\" y=\"50\""] {
-            assert!(svg.contains(place), "{place}: {svg}");
-        }
-        assert!(svg.contains("viewBox=\"0 0 1440 100\""));
-    }
 }

@@ -21,7 +21,7 @@ row! {
     packing_friction: f64, "REAL", "-", "friction while the box closed";
     shaking: Option<f64>, "REAL", "-", "how far the packed box was opened along all axes to be shaken and pressed again, with the friction of afterwards; absent when it was not";
     friction: f64, "REAL", "-", "friction afterwards";
-    packing_pressure: f64, "REAL", "-", "pressure over E* that the packed state was to bear; it does within 5 %, or it bears more where a box loses its load on the way to so little";
+    packing_pressure: f64, "REAL", "-", "pressure over E* requested for the packed state; it has this within 5 %, or more where a box loses its load on the way to so little";
     path: PathName, "TEXT", "-", "packed: before any strain; others: paths of strain";
     stop: i64, "INTEGER", "-", "running number on the path, from 1; 0 is the packed state";
     strain: f64, "REAL", "-", "radial thermal strain relative to the packed state, growth positive";
@@ -40,11 +40,11 @@ row! {
     step_xy: Option<f64>, "REAL", "-", "increment of the shear relative to the state at from_stop: displacement along x over the distance along y";
     step_xz: Option<f64>, "REAL", "-", "increment of the shear relative to the state at from_stop: displacement along x over the distance along z";
     step_yz: Option<f64>, "REAL", "-", "increment of the shear relative to the state at from_stop: displacement along y over the distance along z";
-    outcome: String, "TEXT", "-", "settled; capped: step cap before balance; unjammed: bears no load; failed: see failure";
+    outcome: String, "TEXT", "-", "settled; capped: step cap before balance; unjammed: carries no load; failed: see failure";
     failure: Option<String>, "TEXT", "-", "why the stop was not reached; absent when it was";
     steps: u64, "INTEGER", "-", "time steps from the previous stop";
     unbalanced: Option<f64>, "REAL", "-", "mean resultant force over mean contact force";
-    solid_fraction: Option<f64>, "REAL", "-", "volume of the spheres over that of the box, overlaps counted twice";
+    solid_fraction: Option<f64>, "REAL", "-", "volume of the spheres over the volume of the box, overlaps counted twice";
     coordination: Option<f64>, "REAL", "-", "contacts per sphere, all spheres counted";
     backbone_coordination: Option<f64>, "REAL", "-", "contacts per sphere without rattlers and their contacts";
     rattlers: Option<f64>, "REAL", "-", "part of the spheres that are rattlers: fewer than 2 contacts (4 without friction)";
@@ -62,15 +62,15 @@ row! {
     fabric_xy: Option<f64>, "REAL", "-", "mean of n_x n_y over the contacts";
     fabric_xz: Option<f64>, "REAL", "-", "mean of n_x n_z over the contacts";
     fabric_yz: Option<f64>, "REAL", "-", "mean of n_y n_z over the contacts";
-    contact_conductivity_xx: Option<f64>, "REAL", "-", "xx component of the conductivity by contacts over that of the solid, network solved, at the contacts' size under stress and E*";
-    contact_conductivity_yy: Option<f64>, "REAL", "-", "yy component of the conductivity by contacts over that of the solid, network solved, at the contacts' size under stress and E*";
-    contact_conductivity_zz: Option<f64>, "REAL", "-", "zz component of the conductivity by contacts over that of the solid, network solved, at the contacts' size under stress and E*";
-    contact_conductivity_xy: Option<f64>, "REAL", "-", "xy component of the conductivity by contacts over that of the solid, network solved, at the contacts' size under stress and E*";
-    contact_conductivity_xz: Option<f64>, "REAL", "-", "xz component of the conductivity by contacts over that of the solid, network solved, at the contacts' size under stress and E*";
-    contact_conductivity_yz: Option<f64>, "REAL", "-", "yz component of the conductivity by contacts over that of the solid, network solved, at the contacts' size under stress and E*";
-    gas_conductivity_3_5: Option<f64>, "REAL", "-", "conductivity by the gas over that of the gas, network solved, mean of xx, yy, zz, at the number ln(R/h) = 3.5 of the gas";
-    gas_conductivity_6_0: Option<f64>, "REAL", "-", "conductivity by the gas over that of the gas, network solved, mean of xx, yy, zz, at the number ln(R/h) = 6 of the gas";
-    gas_conductivity_8_5: Option<f64>, "REAL", "-", "conductivity by the gas over that of the gas, network solved, mean of xx, yy, zz, at the number ln(R/h) = 8.5 of the gas";
+    contact_conductivity_xx: Option<f64>, "REAL", "-", "xx component of the conductivity by contacts over k of the solid, network solved, at the contacts' size under stress and E*";
+    contact_conductivity_yy: Option<f64>, "REAL", "-", "yy component of the conductivity by contacts over k of the solid, network solved, at the contacts' size under stress and E*";
+    contact_conductivity_zz: Option<f64>, "REAL", "-", "zz component of the conductivity by contacts over k of the solid, network solved, at the contacts' size under stress and E*";
+    contact_conductivity_xy: Option<f64>, "REAL", "-", "xy component of the conductivity by contacts over k of the solid, network solved, at the contacts' size under stress and E*";
+    contact_conductivity_xz: Option<f64>, "REAL", "-", "xz component of the conductivity by contacts over k of the solid, network solved, at the contacts' size under stress and E*";
+    contact_conductivity_yz: Option<f64>, "REAL", "-", "yz component of the conductivity by contacts over k of the solid, network solved, at the contacts' size under stress and E*";
+    gas_conductivity_3_5: Option<f64>, "REAL", "-", "conductivity by the gas over k of the gas, network solved, mean of xx, yy, zz, at the number ln(R/h) = 3.5 of the gas";
+    gas_conductivity_6_0: Option<f64>, "REAL", "-", "conductivity by the gas over k of the gas, network solved, mean of xx, yy, zz, at the number ln(R/h) = 6 of the gas";
+    gas_conductivity_8_5: Option<f64>, "REAL", "-", "conductivity by the gas over k of the gas, network solved, mean of xx, yy, zz, at the number ln(R/h) = 8.5 of the gas";
 }
 
 impl Row for SphereRecord {

@@ -91,7 +91,7 @@ fn follow(
 /// The box from which the path goes on; or why it ends here.
 fn goes_on(simulation: Simulation, rest: Rest, stop: i64) -> Result<Simulation, String> {
     match rest.outcome {
-        Outcome::Unjammed => Err(format!("the path ended at stop {stop}, which bears no load")),
+        Outcome::Unjammed => Err(format!("the path ended at stop {stop}, without load")),
         Outcome::Settled | Outcome::Capped => Ok(simulation),
     }
 }
