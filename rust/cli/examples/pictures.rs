@@ -26,6 +26,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         ("validity", validity()),
         ("measured", measured()),
         ("law", law(&results)),
+        ("paths", paths(&results)),
         ("cost", cost(&results)),
         ("steps", steps(&results)),
         ("contrast", contrast(&results)),
@@ -237,6 +238,24 @@ fn law(results: &Results) -> Drawn {
     ];
     let (x, y) = ("scatter between packings [%]", "error on held-out paths [%]");
     Ok(plot_named(&title, &log(x, (0.5, 20.0)), &log(y, (0.5, 20.0)), list)?)
+}
+
+/// Errors of the law of discs along paths of held-out packings.
+fn paths(results: &Results) -> Drawn {
+    let rows = results.rows("surrogate-paths");
+    let of = |discs: f64| -> Points {
+        let own = rows.iter().filter(|row| number(&row[1].replace('\u{a0}', "")) == discs);
+        own.map(|row| (number(&row[4]), number(&row[6]))).collect()
+    };
+    let within = rows.iter().filter(|row| number(&row[4]) < 4.0 && number(&row[6]) < 4.0).count();
+    let title = format!("p and K within 4 % on {within} of {} kinds of paths", rows.len());
+    let list = vec![
+        ("500 discs".into(), series(of(500.0), circle(2))),
+        ("2000 discs".into(), series(of(2000.0), Style::marker(1, Marker::Square))),
+    ];
+    let [x, y] =
+        ["error of the pressure [%]", "error of the mean K [%]"].map(|label| from_data(label, false));
+    Ok(plot_named(&title, &x, &y, list)?)
 }
 
 /// Error of T over processor time, for case HC.

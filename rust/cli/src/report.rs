@@ -21,7 +21,7 @@ run that was killed continues.
 
 With --case, the case is run on coarser and finer meshes, with larger and smaller tolerances, with grains that stay and that \
 move, and as msdd case solve chooses it; each run is compared with one that is 4 or 8 times finer in space and time, or, with \
---discs, with DEM of the same box. Copies stand beside the case while they run; the case itself stays as it is. \
+--discs, with DEM of the same box. Copies are next to the case while they run; the case itself stays as it is. \
 It needs its mesh (blockMesh).
 
 Example: msdd report --case cases/HC --quick"

@@ -133,7 +133,7 @@ fn wedge(shape: &Shape) -> &'static str {
         Shape::Box(_) => "",
         Shape::Cylinder { .. } => {
             "- **The mesh is a wedge of 5 degrees, x is the height and y the radius**: points in the files are (height radius 0), and\n  \
-             `conductivity_xx` is the vertical conductivity. Heat and sources in J and W, in the log and in the tables, are 1/72 of those of\n  \
+             `conductivity_xx` is the vertical conductivity. Heat and sources in J and W, in the log and in the tables, are 1/72 of the values of\n  \
              the whole bed.\n"
         }
     }

@@ -121,7 +121,7 @@ pub fn check_porosity(spheres: Spheres, pressure: f64, porosity: f64) -> Result<
     let inside = known.is_some_and(|[least, most]| (least..=most).contains(&porosity));
     allow("porosity", porosity, inside, || match known {
         Some([least, most]) => format!(
-            "{least} to {most}, those of the packings that the law of spheres was trained with, under {} Pa",
+            "{least} to {most}, the training range of the law of spheres, under {} Pa",
             number(pressure)
         ),
         None => "none under this pressure: take another".to_string(),
@@ -171,7 +171,7 @@ impl SphereCase {
             let (solid, least) = (self.spheres.grains.thermal_conductivity, MIN_RATIO * between.conductivity);
             allow("thermalConductivity", solid, solid >= least, || {
                 format!(
-                    "at least that of the gas ({}), which is {} W/(m K) at {} K",
+                    "at least the conductivity of the gas ({}), {} W/(m K) at {} K",
                     gas.as_str(),
                     number(rounded(least, 3)),
                     number(temperature)

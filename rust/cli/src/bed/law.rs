@@ -22,7 +22,7 @@ use std::path::{Path, PathBuf};
   msdd bed law cases/beds --out results/law
 
 The law begins with stress, solid fraction, contacts and fabric of the first row of dem.csv, and follows the strain of the rows. No
-wall, no weight and no other place of the bed plays a part, so that differences are those of the law. Under a lid
+wall, no weight and no other place of the bed plays a part, so that differences are due to the law. Under a lid
 that presses, and in a shell, 'stress kept' follows the stress along the axis instead of the strain there: where the side leaves a bed
 under its weight, a small error of the strain changes the pressure by decades. 'jamming' is by how much the solid fraction without
 load has grown, in units of 1e-5: of the spheres from their strain and pressure, and of the law. 'shear' is the length of the

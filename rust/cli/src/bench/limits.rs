@@ -17,9 +17,9 @@ use std::path::{Path, PathBuf};
 #[derive(Args)]
 #[command(
     after_help = "Periodic boxes of 500 discs, compressed along x to a porosity of 0.13. Strain rates, and limits of the \
-unbalanced force at which a state counts as equilibrium: difference of the pressure from that of the same packing at the lowest \
+unbalanced force at which a state counts as equilibrium: difference of the pressure from the same packing at the lowest \
 rate and limit, mean and rms over the packings [%]. Wall speeds during packing: pressure and porosity in equilibrium, mean and \
-standard deviation. Unjamming: states of a contraction until hardly any contact is left, beside models that start from the \
+standard deviation. Unjamming: states of a contraction until hardly any contact is left, compared with models that start from the \
 packed state and take 200 increments to each of these states."
 )]
 pub struct Arguments {

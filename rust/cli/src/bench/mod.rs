@@ -29,7 +29,7 @@ pub enum Command {
 #[derive(Args)]
 #[command(
     after_help = "Each block of 500 steps starts from the given state and expands the grains at a strain rate of 0.1 1/s, so \
-that the steps are those of a dense packing in motion. Without --state, discs are packed isotropically to a porosity of 0.12 first."
+that steps are typical of a dense packing in motion. Without --state, discs are packed isotropically to a porosity of 0.12 first."
 )]
 pub struct DemArguments {
     /// Discs to pack when no state is given. Allowed: 10 to 1000000.

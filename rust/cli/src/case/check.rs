@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 #[command(
     after_help = "Each line is an error (the solver refuses the case) or a warning (the solver runs it, but the result may not be what was meant), with
 file, key, value and what is allowed. The exit status is 1 with errors, 0 without. 'msddFoam -dry-run' makes all that a run needs, on the
-mesh of the case or, where there is none, on that of blockMeshDict in a copy. No step is computed and the case is left as it is.
+mesh of the case or, where there is none, on the mesh of blockMeshDict in a copy. No step is computed and the case is left as it is.
 Libraries, plug-ins and coded conditions that the case names are loaded.
 
 Example: msdd case check cases/H"

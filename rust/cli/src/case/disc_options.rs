@@ -49,7 +49,7 @@ impl GrainWishes {
         let Some(value) = &self.friction else { return Ok(()) };
         Err(CliError::Message(format!(
             "--friction = {value}, allowed: none. The friction of the grains belongs to the model: 0.3 for spheres, tan(0.5 rad) \
-             for discs, or that of a model of discs that 'msdd train' made (--model FILE); the friction of walls is --wall-friction"
+             for discs, or from a model of discs by 'msdd train' (--model FILE); the friction of walls is --wall-friction"
         )))
     }
 

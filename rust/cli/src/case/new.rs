@@ -27,7 +27,7 @@ const PACKINGS: u32 = 16;
 takes the proposal. Without a terminal, or with --yes, all proposals are taken.
 
 Examples:
-  msdd case new ~/beds/bed                            asks
+  msdd case new ~/beds/bed                            prompts
   msdd case new store --yes --spheres --radius 0.1 --height 0.4 --side 400 --bottom 293 --gas helium
   msdd case new bed --yes                             discs: the model material of the paper, hot on the left
   msdd case new bed --yes --material glass --box 0.05x0.02 --left 350 --pressure 2e6

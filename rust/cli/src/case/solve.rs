@@ -27,7 +27,7 @@ use std::time::Instant;
 
 Short runs on coarse meshes show what it changes to run half of a box that mirrors, to let the grains move, to take a constant
 conductivity or larger steps, and to halve the cells along each direction of system/blockMeshDict. What the model and the scatter of packings leave open is estimated, too. The cheapest
-combination that stays below the wanted accuracy is then run in the folder FOLDER.chosen beside the case, a complete case of its
+combination that stays below the wanted accuracy is then run in the folder FOLDER.chosen next to the case, a complete case of its
 own; its file choice.json and the key 'choice' of its summary.json hold what was tried, what it cost, and the estimates; bands.csv
 holds 90 % bands of T, pressure, conductivity and displacement at points and times. A second call takes the choice without a
 search, and goes on with a run that was killed.

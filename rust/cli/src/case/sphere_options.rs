@@ -358,7 +358,7 @@ impl SphereOptions {
         }
         let lid = prompter.value(
             self.lid,
-            "The top of the bed goes on pressing with the pressure of the start, and gives way; or it stays where it is, and the \
+            "The top of the bed keeps pressing with the initial pressure and moves; or it stays where it is, and the \
              pressure rises where the spheres grow.",
             "Top (presses or stays)",
             "presses",

@@ -8,7 +8,7 @@ use std::path::PathBuf;
 #[derive(Args)]
 #[command(
     after_help = "A run that was killed and continued has written several files, and files of earlier runs may lie next to them. Rows after the
-start of a later part are those of that part. The files of the run are listed in postProcessing/msddFoam/tables.json; without that
+start of a later part belong to that part. The files of the run are listed in postProcessing/msddFoam/tables.json; without that
 list the file that was changed last counts in each folder of a start.
 
 Examples: msdd case table cases/H probes

@@ -24,7 +24,7 @@ const COLUMNS: usize = 3;
 - maps at three times: T, gasTemperature, pressure, conductivity, D and porosity, where they were written;
 - T at the probes over time, with its 90 % band after 'msdd case solve'; T along the bed;
 - stress and heat flux on the walls; outlet and pressure drop of a gas; the balance of heat.
-A wedge is mirrored to the whole section, a mesh in space is cut in the middle. All regions are drawn; numbers are those of the bed.
+A wedge is mirrored to the whole section, a mesh in space is cut in the middle. All regions are drawn; numbers refer to the bed.
 A run that is still at work is shown with the times that are written. Binary fields are read, binary meshes are not.
 
 Examples:
