@@ -184,7 +184,7 @@ fn a_bed_that_moves_or_a_plate_apart_is_no_result() {
     bed.plate = 5;
     for kind in PlateKind::ALL {
         let text = bed.heat(&case, kind, |_| ()).unwrap_err().to_string();
-        assert!(text.contains("with no grain beside it"), "{text}");
+        assert!(text.contains("with no grain next to it"), "{text}");
     }
 }
 

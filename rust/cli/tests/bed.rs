@@ -186,13 +186,13 @@ fn packings_are_joined_and_a_run_goes_on_where_it_was_killed() {
     std::fs::remove_file(outs[1].join("dem-1.csv")).unwrap();
     std::fs::remove_file(outs[1].join("dem.csv")).unwrap();
     let told = String::from_utf8(run(&case, &outs[1], &["--packings", "2"]).stdout).unwrap();
-    assert!(told.contains("packing 2 of 2, seed 2: known from") && !told.contains("seed 1: known"), "{told}");
+    assert!(told.contains("packing 2 of 2, seed 2: taken from") && !told.contains("seed 1: taken"), "{told}");
     assert_eq!(text(&outs[1], "dem.csv"), whole);
     // Another case in the same folder of results is computed afresh.
     let changed = text(&case, "dem.toml").replace("pressure = 20000", "pressure = 30000");
     std::fs::write(case.join("dem.toml"), changed).unwrap();
     let told = String::from_utf8(run(&case, &outs[1], &["--packings", "2"]).stdout).unwrap();
-    assert!(!told.contains("known from"), "{told}");
+    assert!(!told.contains("taken from"), "{told}");
     assert_ne!(text(&outs[1], "dem.csv"), whole);
 }
 

@@ -272,7 +272,7 @@ neighbours_that_cannot_be() {
     check "refused: a fluid beside msddFoam" refused "the regions water of type 'fluid'"
     file_of constant/regionProperties dictionary <<< 'regions (solid (plate));'
     sed -i 's/constIso/constAnIso/; s/kappa 5/kappa (5 5 1)/' constant/plate/thermophysicalProperties
-    check "refused: settings for a bed with a solid" test "$(msdd case solve . 2>&1 | grep -c 'the bed has solids beside it')" = 1
+    check "refused: settings for a bed with a solid" test "$(msdd case solve . 2>&1 | grep -c 'the bed has solids next to it')" = 1
     check "refused: a solid whose conductivity has directions" refused 'Region plate has a conductivity with directions'
 }
 orders
