@@ -65,6 +65,7 @@ Usage
 #include "equilibriumSolver.H"
 #include "runTables.H"
 
+#include "runResults.H"
 #include "runSummary.H"
 #include "caseWarnings.H"
 #include "version.H"
@@ -203,13 +204,16 @@ int main(int argc, char *argv[])
 
     stepWatch watch(scheme.waitLimit());
     runTables tables(runTime, !grains.record().continues);
+    runResults results(T, grains);
 
     Info<< "\nStarting time loop\n" << endl;
 
     while (runTime.run())
     {
         tables.update();
+        results.begin();
         scheme.step();
+        results.update();
         grains.finishStep();
         if (runTime.writeTime())
         {
@@ -232,7 +236,7 @@ int main(int argc, char *argv[])
     made.neighbours->report();
     summary.write
     (
-        scheme.rejected(), warnings.all(), made.neighbours->warning(),
+        results, scheme.rejected(), warnings.all(), made.neighbours->warning(),
         scheme.flow()
     );
 

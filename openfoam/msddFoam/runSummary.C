@@ -101,6 +101,7 @@ void Foam::runSummary::writeCourse
 
 void Foam::runSummary::write
 (
+    const runResults& results,
     const label rejected,
     const UList<string>& warnings,
     const string& solids,
@@ -155,7 +156,12 @@ void Foam::runSummary::write
 
     Info<< "Steps: " << steps << ", repeated " << rejected << nl
         << "Wall time: " << wallSeconds << " s" << nl << nl
-        << "What to know about this run:" << nl;
+        << "Results at " << time.value() << " s:" << nl;
+    for (const string& sentence : results.sentences())
+    {
+        Info<< "  - " << sentence.c_str() << nl;
+    }
+    Info<< nl << "What to know about this run:" << nl;
     for (const string& sentence : sentences)
     {
         Info<< "  - " << sentence.c_str() << nl;
@@ -201,6 +207,7 @@ void Foam::runSummary::write
     {
         os  << "  \"flow\": " << flowing.c_str() << ",\n";
     }
+    os  << "  \"results\": " << results.json().c_str() << ",\n";
     writeCourse(os, heat, warnings);
     os  << "  \"what_to_know\": [";
     forAll(sentences, i)

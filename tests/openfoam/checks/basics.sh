@@ -35,7 +35,29 @@ formulas() { # relations that the written fields must satisfy after 20 steps wit
         "$(grep -A1 '^msddFoam [0-9.]* (commit [0-9a-z]*)$' log | sed -n 2p)" = "Built for OpenFOAM v$(foam_api)$(
             [ "$(foam_api)" = 1912 ] || echo ', untested with this version')"
     check "summary.json names it, too" grep -q "\"built_for\": \"$(sed -n 's/^Built for //p' log)\"" postProcessing/msddFoam/summary.json
+    results_are_right
     check "a query a step" grep -q '"queries": 20,' postProcessing/msddFoam/summary.json
+}
+
+results_are_right() { # the numbers at the end against the fields and the balance of heat
+    check "the log has the results" test "$(sed -n '/^Results at 1 s:/,/^$/p' log | grep -c '^  - \(Temperature\|Conductivity\|Heat into\|Stress on walls\)')" = 4
+    python3 - postProcessing/msddFoam/summary.json $(field 1/T | sort -g | sed -n '1p;$p') > results.txt <<'PYTHON'
+import json, sys
+summary = json.load(open(sys.argv[1]))
+results, (least, largest) = summary["results"], map(float, sys.argv[2:])
+T, walls = results["temperature"], results["walls"]
+print(max(abs(T["least"] / least - 1), abs(T["largest"] / largest - 1)))
+heat = sum(wall["heat"] for wall in walls.values())
+print(abs(heat - summary["steady"]["uptake"]) / max(abs(wall["heat"]) for wall in walls.values()))
+print(min(wall["normal_mean"] - wall["normal_least"] for wall in walls.values()) >= 0)
+print(min(wall["normal_largest"] - wall["normal_mean"] for wall in walls.values()) >= 0)
+PYTHON
+    local e
+    e=$(sed -n 1p results.txt)
+    check "results: T differs from the field by $e <= 1e-9" below "$e" 1e-9
+    e=$(sed -n 2p results.txt)
+    check "results: heat through walls differs from the heat taken up by $e <= 1e-7 of the largest" below "$e" 1e-7
+    check "results: least <= mean <= largest" test "$(sed -n '3,4p' results.txt | tr '\n' ' ')" = "True True "
 }
 
 restarted() { # ten steps, a restart and ten more must give the result of twenty steps
@@ -57,6 +79,18 @@ parallel() {
     local e
     e=$(difference ../serial/1 1)
     check "two processes: difference $e <= 1e-9" below "$e" 1e-9
+    local results=(../serial/postProcessing/msddFoam/summary.json postProcessing/msddFoam/summary.json)
+    e=$(python3 - "${results[@]}" <<'PYTHON'
+import json, sys
+def numbers(value):
+    if isinstance(value, dict):
+        return [x for part in value.values() for x in numbers(part)]
+    return [x for part in value for x in numbers(part)] if isinstance(value, list) else [value]
+a, b = (numbers(json.load(open(file))["results"]) for file in sys.argv[1:])
+print(max(abs(x - y) / max(abs(x), abs(y), 1e-9) for x, y in zip(a, b)) if len(a) == len(b) else 1)
+PYTHON
+    )
+    check "two processes: results differ by $e <= 1e-6" below "$e" 1e-6
 }
 
 bulk_density() { # the paper's option is density x (1 - porosity); the mass-consistent one counts overlaps twice and is larger
