@@ -21,6 +21,7 @@ License
 #include "fixedGradientFvPatchFields.H"
 #include "zeroGradientFvPatchFields.H"
 #include "patchWave.H"
+#include "resistingWall.H"
 #include "wallDistance.H"
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
@@ -44,6 +45,15 @@ static const scalar heated = 500;
 //- largest number of them
 static const scalar stepOfT = 1;
 static const scalar mostSteps = 5000;
+
+
+//- Whether a wall is given its temperature outside of a resistance
+static bool holdsTemperature(const fvPatchScalarField& wall)
+{
+    return
+        dynamic_cast<const resistingWall*>(&wall)
+     && heatEquation::entries(wall).found("temperature");
+}
 
 } // End namespace Foam
 
@@ -71,6 +81,11 @@ void Foam::caseWarnings::readWalls()
             T.least = gMin(wall);
             T.most = gMax(wall);
             include(heatEquation::entries(wall), "uniformValue", T);
+            given.insert(i);
+        }
+        else if (holdsTemperature(wall))
+        {
+            include(heatEquation::entries(wall), "temperature", T);
             given.insert(i);
         }
         else

@@ -228,7 +228,10 @@ void Foam::heatEquation::addCrossed
             const scalar heat =
                 Kxy[facei]*(S[facei].x()*y[facei] + S[facei].y()*x[facei]);
             source[cells[facei]] += heat;
-            patchHeat_[patchi] += coupled ? 0 : heat;
+            if (!coupled)
+            {
+                faceHeat_[patchi][facei] += heat;
+            }
         }
     }
 }
@@ -298,10 +301,8 @@ void Foam::heatEquation::addTensor()
         TEqn_.boundaryCoeffs()[patchi] = -conduction.boundaryCoeffs()[patchi];
         if (!mesh_.boundary()[patchi].coupled())
         {
-            patchHeat_[patchi] = sum
-            (
-                conduction.faceFluxCorrectionPtr()->boundaryField()[patchi]
-            );
+            faceHeat_[patchi] =
+                conduction.faceFluxCorrectionPtr()->boundaryField()[patchi];
         }
     }
     if (slanted_)
@@ -331,7 +332,7 @@ void Foam::heatEquation::addWallCorrection()
                -internal[facei]
                *(feet_[patchi][facei] & gradT[cells[facei]]);
             TEqn_.source()[cells[facei]] += heat;
-            patchHeat_[patchi] += heat;
+            faceHeat_[patchi][facei] += heat;
         }
     }
 }

@@ -122,6 +122,7 @@ Foam::heatEquation::heatEquation
     gradY_(unregistered("gradY", mesh_), gradX_),
     slanted_(false),
     constrained_(false),
+    faceHeat_(mesh_.boundary().size()),
     patchHeat_(mesh_.boundary().size(), Zero),
     sourceHeat_(0),
     sourceDensity_(0)
@@ -399,7 +400,12 @@ void Foam::heatEquation::solveBed
             before = T_.primitiveField();
         }
         T_.boundaryFieldRef().updateCoeffs();
-        patchHeat_ = 0;
+        forAll(faceHeat_, patchi)
+        {
+            const fvPatch& patch = mesh_.boundary()[patchi];
+            faceHeat_[patchi] =
+                scalarField(patch.coupled() ? 0 : patch.size(), Zero);
+        }
         setStorage(Tstar, tau);
         if (aligned_)
         {
@@ -481,11 +487,12 @@ void Foam::heatEquation::solve
         const scalarField& internal = equation.internalCoeffs()[patchi];
         const scalarField& boundary = equation.boundaryCoeffs()[patchi];
         const labelUList& cells = patch.faceCells();
+        scalarField& heat = faceHeat_[patchi];
         forAll(boundary, facei)
         {
-            patchHeat_[patchi] +=
-                boundary[facei] - internal[facei]*T_[cells[facei]];
+            heat[facei] += boundary[facei] - internal[facei]*T_[cells[facei]];
         }
+        patchHeat_[patchi] = sum(heat);
     }
 }
 

@@ -20,6 +20,7 @@ License
 #include "mixedFvPatchFields.H"
 #include "IStringStream.H"
 #include "OStringStream.H"
+#include "resistingWall.H"
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
@@ -207,6 +208,12 @@ void Foam::heatEquation::addLoads(loadHistories& loads)
     }
     for (const fvPatchScalarField& wall : T_.boundaryField())
     {
+        const auto* resisting = dynamic_cast<const resistingWall*>(&wall);
+        if (resisting)
+        {
+            resisting->addLoads(loads);
+            continue;
+        }
         const dictionary dict(entries(wall));
         for (const word key : {"uniformValue", "uniformGradient", "Ta", "Q"})
         {

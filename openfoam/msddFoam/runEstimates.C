@@ -115,14 +115,22 @@ Foam::string Foam::runSummary::steadiness(const heatBalance& heat) const
 {
     const runCourse& course = grains_.record().course;
     const Time& time = grains_.mesh().time();
-    const runCourse::range T(course.values(runCourse::temperature));
     const scalar rate = course.rate();
-    const scalar span = time.value() - grains_.record().startTime;
-    if (rate*span <= steadyChange*(T.most - T.least))
+    const runCourse::drift drift
+    (
+        course.drifts(time.value() - grains_.record().startTime)
+    );
+    const string drifts
+    (
+        " In as long a time as the run T would change by "
+      + brief(100*drift.T) + " % of its range, and p by "
+      + brief(100*drift.p) + " % of its largest value."
+    );
+    if (drift.T <= steadyChange)
     {
         return
             "Steady state: reached; at the end T changes by at most "
-          + brief(rate) + " K/s.";
+          + brief(rate) + " K/s." + drifts;
     }
     const scalar share = steadyShare(heat);
     return
@@ -133,7 +141,8 @@ Foam::string Foam::runSummary::steadiness(const heatBalance& heat) const
           ? ". What the bed takes up falls exponentially: it holds "
           + brief(100*share) + " % of the heat that it will hold when steady."
           : string(", and the bed takes up " + brief(course.uptake().heat) + " W.")
-        );
+        )
+      + drifts;
 }
 
 

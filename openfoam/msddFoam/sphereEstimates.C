@@ -17,11 +17,10 @@ License
 #include "sphereEstimates.H"
 #include "briefNumber.H"
 #include "pascals.H"
-#include "constants.H"
+#include "contactForces.H"
+#include "OStringStream.H"
 
 #include <cmath>
-
-using namespace Foam::constant;
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
@@ -30,12 +29,6 @@ namespace Foam
 
 //- Share of the conductivity from which on radiation is told
 static const scalar muchRadiation = 0.02;
-
-//- Force that one contact in a hundred exceeds, over the mean: log(200)/1.5
-static const scalar largeForce = 3.5;
-
-//- Contacts of a sphere in a packing that bears load, at least
-static const scalar leastContacts = 2;
 
 } // End namespace Foam
 
@@ -66,27 +59,32 @@ Foam::scalar Foam::sphereEstimates::mean(const scalarField& values) const
 }
 
 
-Foam::scalar Foam::sphereEstimates::contactForce(const scalar pressure) const
+Foam::string Foam::sphereEstimates::place() const
 {
-    const scalar solid = 1 - mean(grains_.porosity().primitiveField());
-    const scalar contacts = mean
+    const scalarField p(grains_.presentPressure());
+    label worst = 0;
+    forAll(p, celli)
+    {
+        worst = p[celli] > p[worst] ? celli : worst;
+    }
+    typedef Tuple2<scalar, point> found;
+    found most(-GREAT, point::zero);
+    if (p.size())
+    {
+        most = found(p[worst], grains_.mesh().cellCentres()[worst]);
+    }
+    reduce
     (
-        grains_.mesh().lookupObject<volScalarField>("coordination")
+        most,
+        [](const found& a, const found& b)
+        {
+            return b.first() > a.first() ? b : a;
+        }
     );
-    return
-        mathematical::pi*sqr(diameter_)*pressure
-       /(solid*max(contacts, leastContacts));
-}
-
-
-Foam::scalar Foam::sphereEstimates::hertzPressure(const scalar force) const
-{
-    // E/(1 - nu^2)/2 of both spheres, and half of the radius
-    const scalar modulus = grains_.model().contactModulus();
-    return std::cbrt
-    (
-        6*force*sqr(modulus)/(pow3(mathematical::pi)*sqr(diameter_/4))
-    );
+    OStringStream text;
+    text.precision(3);
+    text<< most.second();
+    return text.str();
 }
 
 
@@ -144,22 +142,36 @@ Foam::sphereEstimates::forces(const scalar pressure) const
     {
         return contacts({string(), false});
     }
-    const scalar force = contactForce(pressure);
-    const scalar middle = hertzPressure(force);
-    const scalar large = hertzPressure(largeForce*force);
+    const contactForces of(diameter_, grains_.model().contactModulus());
+    const scalar force = of.mean
+    (
+        pressure,
+        1 - mean(grains_.porosity().primitiveField()),
+        mean(grains_.mesh().lookupObject<volScalarField>("coordination"))
+    );
+    const scalar most = contactForces::large*force;
+    const scalar middle = of.hertz(force), large = of.hertz(most);
     string text
     (
         "at a pressure of " + pascals(pressure) + " the mean force of contacts"
         " is " + brief(force) + " N, with a Hertz pressure of "
       + pascals(middle) + "; one contact in 100 carries more than "
-      + brief(largeForce*force) + " N (" + pascals(large) + ")"
+      + brief(most) + " N (" + pascals(large) + "); p is largest at "
+      + place() + " m"
     );
-    scalar hardness = 0;
+    scalar crush = 0, hardness = 0;
+    const bool breaks = coeffs_.readIfPresent("crushLoad", crush) && most > crush;
+    if (breaks)
+    {
+        text +=
+            string(", above the crush load of ") + brief(crush)
+          + " N: grains would break";
+    }
     if (!coeffs_.readIfPresent("hardness", hardness))
     {
         return contacts
         (
-            {text + "; the case gives no hardness to compare with", false}
+            {text + "; the case gives no hardness to compare with", breaks}
         );
     }
     text +=
@@ -172,7 +184,7 @@ Foam::sphereEstimates::forces(const scalar pressure) const
           + " would yield or crush"
         )
       : string(", below the hardness of " + pascals(hardness));
-    return contacts({text, large > hardness});
+    return contacts({text, breaks || large > hardness});
 }
 
 

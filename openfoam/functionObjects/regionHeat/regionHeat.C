@@ -192,7 +192,7 @@ Foam::scalar Foam::functionObjects::regionHeat::content
 }
 
 
-Foam::scalar Foam::functionObjects::regionHeat::throughPatch
+Foam::tmp<Foam::scalarField> Foam::functionObjects::regionHeat::flux
 (
     const fvMesh& mesh,
     const label patchi
@@ -212,15 +212,12 @@ Foam::scalar Foam::functionObjects::regionHeat::throughPatch
     }
     // The coefficients of the last equation: values at the wall may have
     // changed since it was solved
-    const scalarField gradient
-    (
-        h.gradientInternalCoeffs()*h.patchInternalField()
-      + h.gradientBoundaryCoeffs()
-    );
-    return sum
-    (
-        alpha*fraction(mesh, patchi)*mesh.boundary()[patchi].magSf()*gradient
-    );
+    return
+        alpha*fraction(mesh, patchi)
+       *(
+            h.gradientInternalCoeffs()*h.patchInternalField()
+          + h.gradientBoundaryCoeffs()
+        );
 }
 
 
@@ -307,7 +304,8 @@ void Foam::functionObjects::regionHeat::addPatches
         {
             continue;
         }
-        const scalar heat = deltaT*throughPatch(mesh, patchi);
+        const scalar heat =
+            deltaT*sum(mesh.boundary()[patchi].magSf()*flux(mesh, patchi));
         const auto* mapped = isA<mappedPatchBase>(patch);
         const bool other = mapped && mapped->sampleRegion() != mesh.name();
         if (!other)

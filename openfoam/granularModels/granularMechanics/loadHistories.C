@@ -115,6 +115,34 @@ void Foam::loadHistories::add
 }
 
 
+bool Foam::loadHistories::changesAfter(const scalar now) const
+{
+    for (const history& load : loads_)
+    {
+        const vector here(load.value(now));
+        const auto differs = [&](const scalar time)
+        {
+            return mag(load.value(time) - here) > atEnd*load.range;
+        };
+        for (const scalar point : load.points)
+        {
+            if (point > now && point <= end_ && differs(point))
+            {
+                return true;
+            }
+        }
+        for (label i = 1; load.points.empty() && i <= inRun; ++i)
+        {
+            if (differs(now + (end_ - now)*i/inRun))
+            {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
+
 Foam::scalar Foam::loadHistories::follow
 (
     const scalar now,

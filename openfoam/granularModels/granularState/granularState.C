@@ -473,6 +473,23 @@ Foam::granularState::trialConductivity()
     ask(before_, after_, strain_, true);
     scatterConductivity(trialK_);
 
+    if (wallResistance_.valid())
+    {
+        // That of the trial, from its conductivity and stress
+        const conductivityColumns K(K_);
+        const stressColumns sigma(sigma_);
+        K_ = trialK_;
+        forAll(sigma_, i)
+        {
+            forAll(rows_, row)
+            {
+                sigma_[i][rows_[row]] = askedSigma_[i][row];
+            }
+        }
+        setWallResistance();
+        K_ = K;
+        sigma_ = sigma;
+    }
     return trialK_;
 }
 

@@ -246,6 +246,7 @@ Foam::granularState::granularState
     }
     findWalls(T);
     askStart();
+    reportWalls(T);
     findReaders();
     refresh();
     record_.refresh = [this]() { refresh(); };

@@ -15,6 +15,22 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "granularState.H"
+#include "resistingWall.H"
+
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+
+//- Whether a condition of T contains the resistance of the wall
+static bool resists(const fvPatchScalarField& patch)
+{
+    const auto* wall = dynamic_cast<const resistingWall*>(&patch);
+    return wall && wall->resists();
+}
+
+} // End namespace Foam
+
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
@@ -22,7 +38,7 @@ void Foam::granularState::findWalls(const volScalarField& T)
 {
     for (const fvPatchScalarField& patch : T.boundaryField())
     {
-        if (patch.type() == "granularContact")
+        if (resists(patch))
         {
             wallResistance_.reset
             (
@@ -42,6 +58,36 @@ void Foam::granularState::findWalls(const volScalarField& T)
 }
 
 
+void Foam::granularState::reportWalls(const volScalarField& T) const
+{
+    wordList without;
+    for (label i = 0; i < mesh_.boundaryMesh().nNonProcessor(); ++i)
+    {
+        const fvPatchScalarField& patch = T.boundaryField()[i];
+        const scalarField& area = patch.patch().magSf();
+        if (resists(patch))
+        {
+            scalarField K, R;
+            atWall(i, temperature_, true, K, R);
+            const scalar length = gSum(area*K*R)/max(gSum(area), VSMALL);
+            Info<< "Wall " << patch.patch().name() << ": the resistance between"
+                << " wall and grains is that of " << length << " m of the bed"
+                << nl << endl;
+        }
+        else if (patch.type().find("ixedValue") != string::npos)
+        {
+            without.append(patch.patch().name());
+        }
+    }
+    if (without.size() && model_->type() == "spheres")
+    {
+        Info<< "Walls without resistance between wall and grains: "
+            << granularProperties::listed(without).c_str()
+            << " (the condition granularWall of T has it)" << nl << endl;
+    }
+}
+
+
 void Foam::granularState::setWallResistance()
 {
     if (!wallResistance_.valid())
@@ -51,7 +97,7 @@ void Foam::granularState::setWallResistance()
     const volScalarField& T = mesh_.lookupObject<volScalarField>("T");
     forAll(mesh_.boundary(), patchi)
     {
-        if (T.boundaryField()[patchi].type() == "granularContact")
+        if (resists(T.boundaryField()[patchi]))
         {
             scalarField conductivity, resistance;
             atWall(patchi, temperature_, true, conductivity, resistance);

@@ -202,11 +202,13 @@ void Foam::runCourse::step
     const scalar deltaT,
     const scalar end,
     const scalar change,
+    const scalar pressureChange,
     const scalar received
 )
 {
     now_ += deltaT;
     rate_ = change/deltaT;
+    pressureRate_ = pressureChange/deltaT;
     uptake_ = sample({now_ - 0.5*deltaT, (received - received_)/deltaT});
     received_ = received;
     const scalar share = (now_ - begin_)/max(end - begin_, VSMALL);
@@ -283,6 +285,23 @@ Foam::scalar Foam::runCourse::beyondSince() const
 Foam::scalar Foam::runCourse::rate() const
 {
     return returnReduce(rate_, maxOp<scalar>());
+}
+
+
+Foam::scalar Foam::runCourse::pressureRate() const
+{
+    return returnReduce(pressureRate_, maxOp<scalar>());
+}
+
+
+Foam::runCourse::drift Foam::runCourse::drifts(const scalar time) const
+{
+    const range T(values(temperature)), p(values(pressure));
+    return drift
+    ({
+        time*rate()/max(T.most - T.least, VSMALL),
+        time*pressureRate()/max(p.most, VSMALL)
+    });
 }
 
 

@@ -56,6 +56,12 @@ const keyTable granularModels::spheres::keys
             "required with `roughness`"
         },
         {
+            "crushLoad",
+            "force between plates at which a sphere breaks: the run warns if"
+            " contacts are pressed harder", "N", "1e-12 to 1e12",
+            "not compared"
+        },
+        {
             "gas",
             "gas between the spheres. Properties are valid from 200 to 2000 K,"
             " of helium from 273 to 1800 K. Spheres that conduct less than the"
@@ -112,6 +118,7 @@ const keyTable granularModels::spheres::keys
         {
             "wall",
             "walls where T has the condition"
+            " [`granularWall`](fields.md#walls-with-their-resistance) or"
             " [`granularContact`](regions.md#the-resistance-of-a-wall)", "-",
             "a dictionary", "none"
         }
@@ -619,8 +626,8 @@ void Foam::granularModels::spheres::wallResistance
     if (!hasWall_)
     {
         FatalIOErrorInFunction(coeffs_)
-            << "Entry 'wall' is missing: the condition granularContact of T"
-            << " needs spheresCoeffs { wall { thermalConductivity; youngModulus;"
+            << "Entry 'wall' is missing: the conditions granularWall and"
+            << " granularContact of T need spheresCoeffs { wall { thermalConductivity; youngModulus;"
             << " poissonRatio; } }, the properties of the wall"
             << exit(FatalIOError);
     }

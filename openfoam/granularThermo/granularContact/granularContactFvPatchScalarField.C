@@ -17,8 +17,8 @@ License
 #include "granularContactFvPatchScalarField.H"
 #include "addToRunTimeSelectionTable.H"
 #include "fvPatchFieldMapper.H"
-#include "granularSolidThermo.H"
 #include "mappedPatchBase.H"
+#include "volFields.H"
 
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
@@ -28,13 +28,9 @@ Foam::granularContactFvPatchScalarField::granularContactFvPatchScalarField
     const DimensionedField<scalar, volMesh>& iF
 )
 :
-    mixedFvPatchScalarField(p, iF),
+    granularSideFvPatchScalarField(p, iF),
     TnbrName_("T")
-{
-    refValue() = Zero;
-    refGrad() = Zero;
-    valueFraction() = 1;
-}
+{}
 
 
 Foam::granularContactFvPatchScalarField::granularContactFvPatchScalarField
@@ -44,7 +40,7 @@ Foam::granularContactFvPatchScalarField::granularContactFvPatchScalarField
     const dictionary& dict
 )
 :
-    mixedFvPatchScalarField(p, iF),
+    granularSideFvPatchScalarField(p, iF),
     TnbrName_(dict.getOrDefault<word>("Tnbr", "T"))
 {
     if (!isA<mappedPatchBase>(p.patch()))
@@ -55,25 +51,7 @@ Foam::granularContactFvPatchScalarField::granularContactFvPatchScalarField
     {
         refuse("useImplicit true, allowed: false");
     }
-    // Without a value the wall begins at the temperature of its cells
-    fvPatchScalarField::operator=
-    (
-        dict.found("value")
-      ? scalarField("value", dict, p.size())
-      : patchInternalField()()
-    );
-    if (dict.found("refValue"))
-    {
-        refValue() = scalarField("refValue", dict, p.size());
-        refGrad() = scalarField("refGradient", dict, p.size());
-        valueFraction() = scalarField("valueFraction", dict, p.size());
-    }
-    else
-    {
-        refValue() = *this;
-        refGrad() = Zero;
-        valueFraction() = 1;
-    }
+    readValues(dict);
 }
 
 
@@ -85,7 +63,7 @@ Foam::granularContactFvPatchScalarField::granularContactFvPatchScalarField
     const fvPatchFieldMapper& mapper
 )
 :
-    mixedFvPatchScalarField(other, p, iF, mapper),
+    granularSideFvPatchScalarField(other, p, iF, mapper),
     TnbrName_(other.TnbrName_)
 {}
 
@@ -96,66 +74,12 @@ Foam::granularContactFvPatchScalarField::granularContactFvPatchScalarField
     const DimensionedField<scalar, volMesh>& iF
 )
 :
-    mixedFvPatchScalarField(other, iF),
+    granularSideFvPatchScalarField(other, iF),
     TnbrName_(other.TnbrName_)
 {}
 
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
-
-void Foam::granularContactFvPatchScalarField::refuse(const string& what) const
-{
-    FatalErrorInFunction
-        << "Patch " << patch().name() << " of field "
-        << internalField().objectPath() << " has the condition "
-        << "granularContact and " << what.c_str() << exit(FatalError);
-}
-
-
-Foam::tmp<Foam::scalarField>
-Foam::granularContactFvPatchScalarField::kappa() const
-{
-    const fvMesh& mesh = patch().boundaryMesh().mesh();
-    if (mesh.foundObject<solidThermo>(basicThermo::dictName))
-    {
-        const solidThermo& thermo =
-            mesh.lookupObject<solidThermo>(basicThermo::dictName);
-        if (!thermo.isotropic() && !isA<granularSolidThermo>(thermo))
-        {
-            refuse
-            (
-                "its region has a conductivity with directions, allowed: beds,"
-                " and solids without directions"
-            );
-        }
-        return thermo.kappa(patch().index());
-    }
-    if (!mesh.foundObject<volSymmTensorField>("K"))
-    {
-        refuse
-        (
-            "its region is neither a bed nor a solid, allowed: these two. A"
-            " fluid has compressible::turbulentTemperatureRadCoupledMixed"
-        );
-    }
-    const vectorField n(patch().nf());
-    const symmTensorField& K =
-        patch().lookupPatchField<volSymmTensorField, symmTensor>("K");
-    return n & (K & n);
-}
-
-
-bool Foam::granularContactFvPatchScalarField::resistance(scalarField& R) const
-{
-    const fvMesh& mesh = patch().boundaryMesh().mesh();
-    if (!mesh.foundObject<volScalarField>("wallResistance"))
-    {
-        return false;
-    }
-    R = patch().lookupPatchField<volScalarField, scalar>("wallResistance");
-    return true;
-}
-
 
 void Foam::granularContactFvPatchScalarField::addGas
 (

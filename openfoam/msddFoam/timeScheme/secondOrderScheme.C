@@ -15,6 +15,7 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "secondOrderScheme.H"
+#include "resistingWall.H"
 #include "stepWatch.H"
 #include "extrapolatedCalculatedFvPatchFields.H"
 #include "addToRunTimeSelectionTable.H"
@@ -93,6 +94,22 @@ static const label mostHalvings = 10;
 //- Largest change of the conductivity by its extrapolation to a stage, over its
 //- least component of the directions in which heat is conducted
 static const scalar mostAhead = 0.5;
+
+//- Resistance of walls, which the second stage changes; empty if there is none
+static List<scalarField> wallResistance(const fvMesh& mesh)
+{
+    List<scalarField> result;
+    const auto* field = mesh.findObject<volScalarField>("wallResistance");
+    if (field)
+    {
+        for (const fvPatchScalarField& patch : field->boundaryField())
+        {
+            result.append(patch);
+        }
+    }
+    return result;
+}
+
 
 //- Conductivity at the start of the last step, where grains move
 static const char* const earlierName = "conductivityBefore";
@@ -198,9 +215,15 @@ void Foam::timeSchemes::secondOrder::see()
     look(T_.primitiveField());
     for (const fvPatchScalarField& patch : T_.boundaryField())
     {
+        scalar T = 0;
+        const auto* wall = dynamic_cast<const resistingWall*>(&patch);
         if (heatEquation::isGiven(patch))
         {
             look(patch);
+        }
+        else if (wall && patch.size() && wall->outside(T))
+        {
+            look(scalarField(1, T));
         }
     }
     heat_.flow().extend(record.leastT, record.mostT);
@@ -330,6 +353,7 @@ Foam::scalar Foam::timeSchemes::secondOrder::stages(const scalar deltaT)
     const scalarField before(heat_.equivalent(Told_));
     heat_.solve(before, gamma2*deltaT, startK_);
     firstHeat_ = heat_.patchHeat();
+    firstFaceHeat_ = heat_.faceHeat();
     firstSource_ = heat_.sourceHeat();
     firstOutside_ = neighbours_.heat();
     firstGiven_ = ofNeighbours();
@@ -442,27 +466,19 @@ bool Foam::timeSchemes::secondOrder::settle
 
 void Foam::timeSchemes::secondOrder::accountStages(const scalar deltaT)
 {
-    runRecord& record = grains_.record();
-    scalar sources =
-        (1 - gamma2)*firstSource_ + gamma2*heat_.sourceHeat();
-
-    forAll(firstHeat_, patchi)
-    {
-        const scalar heat = deltaT
-           *(
-                (1 - gamma2)*firstHeat_[patchi]
-              + gamma2*heat_.patchHeat()[patchi]
-            );
-        record.heat[patchi] += heat;
-        record.exchanged += mag(heat);
-    }
-    record.sourceHeat += deltaT*sources;
-    record.exchanged += deltaT*mag(sources);
-
-    const auto mean = [](const scalar first, const scalar second)
+    const auto mean = [](const auto& first, const auto& second)
     {
         return (1 - gamma2)*first + gamma2*second;
     };
+    scalarList patches(firstHeat_);
+    List<scalarField> faces(firstFaceHeat_);
+    forAll(patches, patchi)
+    {
+        patches[patchi] = mean(firstHeat_[patchi], heat_.patchHeat()[patchi]);
+        faces[patchi] =
+            mean(firstFaceHeat_[patchi], heat_.faceHeat()[patchi]);
+    }
+    book(deltaT, patches, faces, mean(firstSource_, heat_.sourceHeat()));
     neighbours_.finish
     (
         deltaT*mean(firstOutside_, neighbours_.heat()),
@@ -492,6 +508,7 @@ void Foam::timeSchemes::secondOrder::step()
     startK_ = mechanics_.pulledBack(grains_.conductivityOfCells());
     neighbours_.begin();
     heat_.flow().begin();
+    const List<scalarField> resistance(wallResistance(T_.mesh()));
 
     while (true)
     {
@@ -514,6 +531,11 @@ void Foam::timeSchemes::secondOrder::step()
         }
         ++rejected_;
         T_.primitiveFieldRef() = Told_;
+        forAll(resistance, patchi)
+        {
+            T_.mesh().lookupObjectRef<volScalarField>("wallResistance")
+               .boundaryFieldRef()[patchi] == resistance[patchi];
+        }
         neighbours_.restore();
         heat_.flow().restore();
         const scalar factor =

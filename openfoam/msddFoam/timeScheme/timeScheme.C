@@ -77,6 +77,15 @@ const Foam::keyTable Foam::timeScheme::keys
             " mechanical tangent have no such error", "%", "1e-9 to 100", "1"
         },
         {
+            "stopWhenSteady",
+            "the run ends, and writes, one step after it is steady: at the rates"
+            " of the step, in a time as long as the run so far, T changes by less"
+            " than this share of its range in the run, and p by less than this"
+            " share of its largest value. Walls, sources and loads that change"
+            " later keep it going. 0: the run goes on to `endTime`", "-",
+            "0 to 1", "0"
+        },
+        {
             "logInterval",
             "steps between two lines of the log; written times always have one",
             "-", "1 to 1e9", "1"
@@ -118,6 +127,9 @@ Foam::timeScheme::timeScheme
         label(keys.number(dict, "nNonOrthogonalCorrectors"))
     ),
     Told_(T.primitiveField()),
+    pressure_(grains.presentPressure()),
+    steadyShare_(keys.number(dict, "stopWhenSteady")),
+    ends_(false),
     logInterval_(label(keys.number(dict, "logInterval"))),
     waitLimit_(keys.number(dict, "waitLimit"))
 {
@@ -198,17 +210,42 @@ void Foam::timeScheme::setLog() const
 }
 
 
-void Foam::timeScheme::account(const scalar interval)
+void Foam::timeScheme::book
+(
+    const scalar interval,
+    const scalarList& patchHeat,
+    const List<scalarField>& faceHeat,
+    const scalar sourceHeat
+)
 {
     runRecord& record = grains_.record();
-    const scalarList& heat = heat_.patchHeat();
-    forAll(heat, patchi)
+    forAll(patchHeat, patchi)
     {
-        record.heat[patchi] += interval*heat[patchi];
-        record.exchanged += interval*mag(heat[patchi]);
+        record.heat[patchi] += interval*patchHeat[patchi];
+        record.exchanged += interval*mag(patchHeat[patchi]);
     }
-    record.sourceHeat += interval*heat_.sourceHeat();
-    record.exchanged += interval*mag(heat_.sourceHeat());
+    record.sourceHeat += interval*sourceHeat;
+    record.exchanged += interval*mag(sourceHeat);
+
+    auto* flux = T_.mesh().getObjectPtr<volScalarField>(runRecord::wallFlux);
+    if (!flux)
+    {
+        return;
+    }
+    forAll(faceHeat, patchi)
+    {
+        if (faceHeat[patchi].size())
+        {
+            flux->boundaryFieldRef()[patchi] ==
+                faceHeat[patchi]/T_.mesh().boundary()[patchi].magSf();
+        }
+    }
+}
+
+
+void Foam::timeScheme::account(const scalar interval)
+{
+    book(interval, heat_.patchHeat(), heat_.faceHeat(), heat_.sourceHeat());
     neighbours_.finish
     (
         interval*neighbours_.heat(), interval*ofNeighbours()
@@ -220,19 +257,67 @@ void Foam::timeScheme::account(const scalar interval)
 void Foam::timeScheme::observe(const scalar deltaT)
 {
     grains_.see(T_, heat_.sourceDensity());
-    scalar change = 0;
+    const scalarField before(pressure_);
+    pressure_ = grains_.presentPressure();
+    scalar change = 0, pressureChange = 0;
     forAll(Told_, celli)
     {
         change = max(change, mag(T_[celli] - Told_[celli]));
+        pressureChange =
+            max(pressureChange, mag(pressure_[celli] - before[celli]));
     }
     grains_.record().course.step
     (
-        deltaT, time_.endTime().value(), change, received()
+        deltaT, time_.endTime().value(), change, pressureChange, received()
     );
+    stopWhenSteady();
     if (time_.timeIndex() % max(reportInterval, logInterval_) == 0)
     {
         report();
     }
+}
+
+
+void Foam::timeScheme::stopWhenSteady()
+{
+    if (steadyShare_ <= 0 || ends_)
+    {
+        return;
+    }
+    const scalar now = time_.value();
+    const runCourse::drift drift
+    (
+        grains_.record().course.drifts(now - grains_.record().startTime)
+    );
+    if (!drift.within(steadyShare_))
+    {
+        return;
+    }
+    if (!given_.valid())
+    {
+        given_.reset
+        (
+            new loadHistories
+            (
+                grains_.record().startTime, time_.endTime().value()
+            )
+        );
+        mechanics_.addLoads(given_());
+        heat_.addLoads(given_());
+    }
+    if (given_->changesAfter(now))
+    {
+        return;
+    }
+    ends_ = true;
+    time_.stopAt(Time::saWriteNow);
+    OStringStream text;
+    text.precision(3);
+    text<< "The bed was steady at " << time_.timeName() << " s (stopWhenSteady "
+        << steadyShare_ << "): in as long a time as the run so far T would"
+        << " change by " << drift.T << " of its range, and p by " << drift.p
+        << " of its largest value. The run ended with the next step";
+    runRecord::note(text.str());
 }
 
 

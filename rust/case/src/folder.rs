@@ -94,12 +94,23 @@ pub fn files(scene: &DiscCase, packing: &Packing, name: &str, checkout: &Path) -
     files
 }
 
+/// Keys of `system/fvSolution` of a run that ends once it is steady.
+pub(crate) fn stop_when_steady(steady: bool) -> String {
+    match steady {
+        true => "\n\n    // The run ends once T and p would change by less than this share in as long a time as the run so far\n    \
+                 stopWhenSteady          1e-3;"
+            .to_string(),
+        false => String::new(),
+    }
+}
+
 /// The files that hardly depend on the bed: what runs and removes, and numerical schemes. `tolerance`: error of T that a step may
 /// make \[K\]; `grains`: number of grains of the bed, of which the mesh may be a part.
-pub fn programs(name: &str, checkout: &Path, tolerance: f64, grains: usize) -> Vec<File> {
+pub fn programs(name: &str, checkout: &Path, tolerance: f64, grains: usize, steady: bool) -> Vec<File> {
     let keys = format!(
-        "temperatureTolerance    {};\n\n    // Number of grains of the whole bed, for 'msdd case solve'\n    grains                  {grains};",
-        plain(rounded(tolerance, 2))
+        "temperatureTolerance    {};\n\n    // Number of grains of the whole bed, for 'msdd case solve'\n    grains                  {grains};{}",
+        plain(rounded(tolerance, 2)),
+        stop_when_steady(steady)
     );
     let values =
         vec![("checkout", checkout.display().to_string()), ("name", name.to_string()), ("tolerance", keys)];

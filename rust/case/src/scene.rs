@@ -53,6 +53,8 @@ pub struct DiscCase {
     pub end_time: f64,
     /// Largest error of T that a time step may add \[K\]; `None`: a thousandth of the range of T.
     pub tolerance: Option<f64>,
+    /// Whether the run ends before, once it is steady.
+    pub steady: bool,
     /// Points where T is recorded \[m\].
     pub probes: Vec<[f64; 2]>,
 }

@@ -10,6 +10,7 @@ use crate::spheres::material::MATERIALS;
 use crate::spheres::scene::{Lid, SphereCase};
 use crate::spheres::shape::Shape;
 use crate::spheres::start::Gas;
+use crate::spheres::wall;
 use crate::walls::WallOverTime;
 use msdd_beds::named_gases::GasName;
 use msdd_rve::Compression;
@@ -34,6 +35,7 @@ pub fn discs() -> DiscCase {
         heat_source: None,
         end_time: 60.0,
         tolerance: None,
+        steady: false,
         probes: proposed_probes(size),
     }
 }
@@ -55,10 +57,12 @@ pub fn spheres() -> SphereCase {
         shell: None,
         slack_layer: 0.0,
         wall_friction: 0.0,
+        wall_material: Some(wall::MATERIALS[0]),
         gravity: 0.0,
         heat_source: None,
         end_time: 1e4,
         tolerance: None,
+        steady: false,
         probes: vec![vec![0.05, 0.2]],
     }
 }

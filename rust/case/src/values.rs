@@ -1,5 +1,6 @@
 //! Values in the files of a new case: numbers and names as text.
 
+use crate::folder::stop_when_steady;
 use crate::numbers::{plain, rounded};
 use crate::packing::{Packing, RADIUS_RANGE, Spread};
 use crate::scene::{DiscCase, Mechanics, WALLS};
@@ -33,6 +34,7 @@ pub(crate) fn values(scene: &DiscCase, packing: &Packing, name: &str, checkout: 
                 Mechanics::None => String::new(),
             },
         ),
+        ("wallProfile", String::new()),
         ("checkout", checkout.display().to_string()),
         ("name", name.to_string()),
         ("mechanics", mechanics_name(scene.mechanics).to_string()),
@@ -40,8 +42,8 @@ pub(crate) fn values(scene: &DiscCase, packing: &Packing, name: &str, checkout: 
         ("probes", probes(scene, depth)),
         ("probesNote", format!(". z is between 0 and {} m", plain(rounded(depth, 3)))),
         ("initialTemperature", plain(scene.initial_temperature)),
-        ("walls", walls(WALLS.into_iter().zip(&scene.walls))),
-        ("libraries", libraries(&scene.walls)),
+        ("walls", walls(WALLS.into_iter().zip(&scene.walls), false)),
+        ("libraries", libraries(&scene.walls, false)),
         ("parts", "$..numberOfSubdomains 1 1".to_string()),
         ("heatSource", plain(scene.heat_source.unwrap_or(0.0))),
         (
@@ -49,7 +51,7 @@ pub(crate) fn values(scene: &DiscCase, packing: &Packing, name: &str, checkout: 
             match scene.tolerance {
                 Some(value) => format!("temperatureTolerance    {};", plain(value)),
                 None => "// temperatureTolerance    0.05;".to_string(),
-            },
+            } + &stop_when_steady(scene.steady),
         ),
     ];
     values.extend(times(scene.end_time, scene.first_step()));
@@ -206,15 +208,47 @@ fn probes(scene: &DiscCase, depth: f64) -> String {
     scene.probes.iter().map(line).collect::<Vec<_>>().join("\n")
 }
 
-/// Patches of `0/T`.
-pub(crate) fn walls<'a>(walls: impl Iterator<Item = (&'a str, &'a WallOverTime)>) -> String {
+/// Patches of `0/T`. `resist`: walls that heat passes contain the resistance between wall and grains.
+pub(crate) fn walls<'a>(walls: impl Iterator<Item = (&'a str, &'a WallOverTime)>, resist: bool) -> String {
+    let block = |(name, wall): (&str, &WallOverTime)| {
+        let condition = if resist && wall.conducts() { resisting(wall) } else { condition(wall) };
+        format!("    {name}\n    {{\n        {condition}\n    }}\n")
+    };
+    walls.map(block).collect()
+}
+
+/// Rows of a wall's temperature over time, as OpenFOAM's table.
+fn rows_of(rows: &[[f64; 2]]) -> String {
+    let list: String =
+        rows.iter().map(|[time, value]| format!(" ({} {})", plain(*time), plain(*value))).collect();
+    format!("table ({list} )")
+}
+
+/// The condition of a wall that heat passes, with the resistance between wall and grains.
+fn resisting(wall: &WallOverTime) -> String {
+    let (mode, entries) = match wall {
+        WallOverTime::Coefficient { coefficient, outside } => (
+            "coefficient",
+            format!("h               {};\n        Ta              {};", plain(*coefficient), plain(*outside)),
+        ),
+        WallOverTime::Flux(flux) => ("flux", format!("q               {};", plain(*flux))),
+        WallOverTime::Table(rows) => ("temperature", format!("temperature     {};", rows_of(rows))),
+        WallOverTime::Steady(WallHeat::Temperature(value)) => {
+            ("temperature", format!("temperature     {};", plain(*value)))
+        }
+        WallOverTime::Steady(_) => return condition(wall),
+    };
+    format!("type            granularWall;\n        mode            {mode};\n        {entries}")
+}
+
+fn condition(wall: &WallOverTime) -> String {
     let external = |mode: &str, entries: String| {
         format!(
             "type            externalWallHeatFluxTemperature;\n        mode            {mode};\n        {entries}\n        \
              kappaMethod     lookup;\n        kappa           K;\n        value           $internalField;"
         )
     };
-    let condition = |wall: &WallOverTime| match wall {
+    match wall {
         WallOverTime::Coefficient { coefficient, outside } => external(
             "coefficient",
             format!(
@@ -229,27 +263,26 @@ pub(crate) fn walls<'a>(walls: impl Iterator<Item = (&'a str, &'a WallOverTime)>
         }
         WallOverTime::Steady(_) => "type    zeroGradient;".to_string(),
         WallOverTime::Table(rows) => {
-            let list: String =
-                rows.iter().map(|[time, value]| format!(" ({} {})", plain(*time), plain(*value))).collect();
             format!(
-                "type            uniformFixedValue;\n        uniformValue    table ({} );\n        value           uniform {};",
-                list,
+                "type            uniformFixedValue;\n        uniformValue    {};\n        value           uniform {};",
+                rows_of(rows),
                 plain(rows[0][1])
             )
         }
-    };
-    let block = |(name, wall): (&str, &WallOverTime)| {
-        format!("    {name}\n    {{\n        {}\n    }}\n", condition(wall))
-    };
-    walls.map(block).collect()
+    }
 }
 
-/// Entry of `system/controlDict` for the conditions of the walls.
-pub(crate) fn libraries(walls: &[WallOverTime]) -> String {
+/// Entry of `system/controlDict` for the conditions of the walls; `resist` as for [`walls`].
+pub(crate) fn libraries(walls: &[WallOverTime], resist: bool) -> String {
+    let library = |condition: &str, name: &str| {
+        format!("\n// With {condition} of 0/T\nlibs            (\"{name}\");\n")
+    };
     let external =
         |wall: &WallOverTime| matches!(wall, WallOverTime::Coefficient { .. } | WallOverTime::Flux(_));
-    if walls.iter().any(external) {
-        "\n// With externalWallHeatFluxTemperature of 0/T\nlibs            (\"libcompressibleTurbulenceModels.so\");\n".to_string()
+    if resist && walls.iter().any(WallOverTime::conducts) {
+        library("granularWall", "libgranularThermo.so")
+    } else if !resist && walls.iter().any(external) {
+        library("externalWallHeatFluxTemperature", "libcompressibleTurbulenceModels.so")
     } else {
         String::new()
     }

@@ -11,8 +11,8 @@ const SIDES: [[[usize; 4]; 2]; 2] = [[[0, 3, 4, 7], [1, 2, 5, 6]], [[0, 1, 4, 5]
 /// Fields whose images are themselves if they are uniform and have no xy component.
 const FIELDS: [&str; 5] = ["T", "porosity", "fabricIndex", "stress", "conductivity"];
 /// Conditions that are the same along a wall.
-const CONDITIONS: [&str; 5] =
-    ["fixedValue", "uniformFixedValue", "zeroGradient", "fixedGradient", "calculated"];
+const CONDITIONS: [&str; 6] =
+    ["fixedValue", "uniformFixedValue", "zeroGradient", "fixedGradient", "calculated", "granularWall"];
 /// Function objects that say the same of a half as of the whole, once their points are those of the half.
 const FUNCTIONS: [&str; 5] = ["probes", "spaceProbes", "wallPressure", "heatAudit", "massAudit"];
 /// Fields with components that change their sign in a mirror.

@@ -1,5 +1,6 @@
 # Beds of spheres as regions, and walls whose resistance the bed's own model gives (granularContact): against msddFoam in a mesh of
-# three dimensions, against closed forms, in both programs, with what is refused. Region 'bed' is grains, 'plate' an ordinary solid.
+# three dimensions, against closed forms, in both programs, with what is refused; walls that are not meshed (granularWall). Region 'bed'
+# is grains, 'plate' an ordinary solid.
 
 . "$here/region_cases"
 sphere_grains() { # entries of spheresCoeffs, other entries
@@ -205,7 +206,7 @@ of_discs() { # discs touch a wall better than each other: the wall adds nothing
 }
 walls_that_cannot_be() {
     contact_case contact-bad '' "$own"
-    region_message "Entry 'wall' is missing: the condition granularContact of T needs spheresCoeffs { wall"
+    region_message "Entry 'wall' is missing: the conditions granularWall and granularContact of T need spheresCoeffs { wall"
     sphere_grains "gas vacuum; wall { thermalConductivity 15; youngModulus 200e9; poissonRatio 0.29; spheres 2; }" 'thermalExpansion 0;'
     region_message "Entry 'spheres' is 2, allowed: 0.01 to 1.16"
     contact_case contact-other "$steel_wall" "$own" "$(coupled left | sed 's/^left { type//; s/}$//')"
@@ -221,9 +222,138 @@ walls_that_cannot_be() {
 }
 region_heat() { controls 'functions { regionHeat { type regionHeat; libs ("libgranularFunctionObjects.so"); writeControl writeTime; } }'; }
 
+# A wall that is not meshed (granularWall): temperature, coefficient or flux in series with the resistance. A slab of the same smooth
+# spheres in a vacuum, 20 mm thick, the stress uniform: K and the resistance are constants, and T is a straight line.
+slab_wall='wall { thermalConductivity 15; youngModulus 200e9; poissonRatio 0.29; spheres 0.5; }'
+slab_mesh='scale 0.001; vertices ((0 0 0) (20 0 0) (20 6 0) (0 6 0) (0 0 4) (20 0 4) (20 6 4) (0 6 4)); blocks (hex (0 1 2 3 4 5 6 7) (16 3 1)
+    simpleGrading (1 1 1)); boundary ( hot { type wall; faces ((0 4 7 3)); } cold { type wall; faces ((1 2 6 5)); }
+    sides { type wall; faces ((4 5 6 7) (0 1 5 4) (3 7 6 2) (0 3 2 1)); } );'
+slab() { # folder, condition of the hot wall, of the cold wall, further entries of spheresCoeffs, of granularProperties
+    changed "$1"
+    rm -rf 0 constant/granularProperties
+    foam_file system/blockMeshDict dictionary <<< "$slab_mesh"
+    sphere_grains "gas vacuum; $slab_wall ${4:-}" "${5:-thermalExpansion 0;}" constant/granularProperties
+    sphere_fields 0 '-1e4 0 0 -1e4 0 -1e4' ' '
+    foam_file 0/T volScalarField <<< "dimensions [0 0 0 1 0 0 0]; internalField uniform 350; boundaryField { hot { $2 } cold { $3 } sides { type zeroGradient; } }"
+    controls 'libs ("libgranularThermo.so"); startFrom latestTime; timePrecision 12; endTime 1e11; deltaT 1e11; writeControl timeStep; writeInterval 1; adjustTimeStep no; functions {}'
+    scheme 'timeScheme paper;'
+    echo 'solvers { T { solver PCG; preconditioner DIC; tolerance 1e-16; relTol 0; } }' >> system/fvSolution
+    logged blockMesh
+}
+held() { echo "type granularWall; mode temperature; temperature $1;"; }
+slab_law() { # flux and both ends of T in the cells, of conductances [W/(m2 K)] next to the resistance at the hot wall, and T there; of the cold wall
+    awk -v K="$1" -v hot="$2" -v h="$3" -v cold="$4" 'BEGIN { d = 2e-3; n = 0.5; E = 200e9/(2*(1 - 0.29^2)); F = 1e4*d*d/n
+        a = (0.75*F*1e-3/E)^(1/3); k = 2*42*15/(42 + 15); R = d*d/(n*2*a*k) - 1e-3/K; outer = h ? 1/h : 0
+        q = (hot - cold)/(0.02/K + 2*R + outer); dx = 0.02/16
+        printf "%.12g %.12g %.12g %.12g", R, q, hot - q*(outer + R + 0.5*dx/K), cold + q*(R + 0.5*dx/K) }'
+}
+ends() { field "$1" | awk -v n=16 '{ T[NR] = $1 } END { printf "%.15g %.15g", T[1], T[n] }'; } # T in the first and last cell of a row
+slab_errors() { # largest error of both ends of T over the range of 100 K: file, law
+    echo "$(ends "$1") $2" | awk '{ a = $1 - $5; b = $2 - $6; a = a < 0 ? -a : a; b = b < 0 ? -b : b; print (a > b ? a : b)/100 }'
+}
+walls_not_meshed() {
+    local K law e q t=100000000000
+    slab slab-held "$(held 400)" "$(held 300)"
+    logged msddFoam
+    K=$(field $t/conductivity | awk 'NR == 1 { print $1 }')
+    law=$(slab_law "$K" 400 0 300)
+    e=$(slab_errors $t/T "$law")
+    check "walls of given temperature with their resistance ($law: m2 K/W, W/m2, ends of T): T is the closed form within $e <= 1e-8 of the range (linear solver)" below "$e" 1e-8
+    check "the log says how much bed a wall stands for" grep -q 'Wall hot: the resistance between wall and grains is that of 0\.0' log
+    slab slab-coefficient 'type granularWall; mode coefficient; h 10; Ta 400;' "$(held 300)"
+    logged msddFoam
+    e=$(slab_errors $t/T "$(slab_law "$K" 400 10 300)")
+    check "a heat transfer coefficient outside: within $e <= 1e-8" below "$e" 1e-8
+    # The flux of the second case leads to its temperatures
+    q=$(slab_law "$K" 400 10 300 | awk '{ print $2 }')
+    slab slab-flux "type granularWall; mode flux; q $q;" "$(held 300)"
+    logged msddFoam
+    e=$(slab_errors $t/T "$(slab_law "$K" 400 10 300)")
+    check "a heat flux: within $e <= 1e-8" below "$e" 1e-8
+    slab slab-off "$(held 400) resistance off;" "$(held 300) resistance off;"
+    logged msddFoam
+    slab slab-fixed 'type fixedValue; value uniform 400;' 'type fixedValue; value uniform 300;'
+    logged msddFoam
+    e=$(largest_difference 100 "field $t/T" "field $work/slab-off/$t/T")
+    check "resistance off: T of fixedValue within $e <= 1e-12 of the range" below "$e" 1e-12
+    check "walls without it are in the log" grep -q 'Walls without resistance between wall and grains: hot, cold' log
+    # Against a solid of one temperature
+    own_as_solid
+}
+own_as_solid() { # the region's case with granularContact, next to a plate that conducts so well that it has one temperature
+    local e name
+    contact_case contact-isothermal "$steel_wall" "$own"
+    plate plate 1e9 500 7800
+    logged chtMultiRegionFoam
+    contact_case wall-region "$steel_wall" "$own"
+    sed -i 's/right { type granularContact[^}]*}/right { type granularWall; temperature 300; }/; s/left { type fixedValue[^}]*}/left { type fixedValue; value uniform 400; }/' 0/bed/T
+    sed -i 's/left { type granularContact[^}]*}/left { type zeroGradient; }/' 0/plate/T
+    for name in bed plate; do # no longer coupled
+        sed -i 's/mappedWall/wall/' constant/$name/polyMesh/boundary
+    done
+    region_heat
+    logged chtMultiRegionFoam
+    e=$(largest_difference 100 'field 100000000000/bed/T' "field $work/contact-isothermal/100000000000/bed/T")
+    check "in a region, against granularContact next to a solid of one temperature: T differs by $e <= 1e-7 of the range" below "$e" 1e-7
+    e=$(tail -n 1 postProcessing/regionHeat/*/regionHeat.dat | awk '{ print $NF }')
+    check "heat of the region closes to $e <= 1e-9" below "$e" 1e-9
+}
+walls_in_time() { # helium that radiates, a wall that follows a table, adaptive steps: balance, restart, processes
+    local e name differing='' balance='functions { heatAudit { type heatAudit; libs ("libgranularFunctionObjects.so"); writeControl writeTime; tolerance 1e-9; } }'
+    slab slab-time "$(held 'table ((0 350) (20 800))')" 'type granularWall; mode coefficient; h table ((0 50) (40 100)); Ta 300;' 'gas helium; emissivity 0.8;' ' '
+    controls "endTime 40; deltaT 1; writeInterval 20; writeControl runTime; adjustTimeStep yes; $balance"
+    scheme 'timeScheme secondOrder; temperatureTolerance 0.05;'
+    cp -r . ../slab-cut.new && rm -rf ../slab-cut && mv ../slab-cut.new ../slab-cut
+    logged msddFoam
+    e=$(tail -n 1 postProcessing/heatAudit/*/heatAudit.dat | awk '{ print $NF }')
+    check "walls over time, adaptive steps: the heat closes to $e <= 1e-9" below "$e" 1e-9
+    mv 40 whole
+    logged msddFoam
+    for name in whole/*; do [ -d "$name" ] || cmp -s "$name" "40/${name##*/}" || differing+=" ${name##*/}"; done
+    check "restarted in the middle: the same bytes${differing:+, differing:$differing}" test -z "$differing"
+    cd ../slab-cut
+    in_parts '1 3'
+    side_by_side 3
+    logged reconstructPar -latestTime
+    e=$(largest_difference 500 'field 40/T' 'field ../slab-time/whole/T')
+    check "three processes, the walls cut: T differs by $e <= 1e-9 of the range" below "$e" 1e-9
+    # The resistance of the second stage is that of its temperature
+    local fixed
+    for fixed in 2 1 0.5; do
+        cp -r ../slab-time "../slab-order.new" && rm -rf "../slab-order-$fixed" && mv ../slab-order.new "../slab-order-$fixed" && cd "../slab-order-$fixed"
+        rm -rf [1-9]* whole postProcessing
+        controls "functions {} deltaT $fixed; adjustTimeStep no; writeInterval 40;"
+        scheme 'timeScheme secondOrder; logInterval 1000;'
+        logged msddFoam
+    done
+    e=$(paste -d ' ' <(field ../slab-order-2/40/T) <(field ../slab-order-1/40/T) <(field 40/T) | awk '{ a = $1 - $2; b = $2 - $3; a = a < 0 ? -a : a; b = b < 0 ? -b : b
+        A = a > A ? a : A; B = b > B ? b : B } END { print A/B }')
+    check "halving of the step, fixed steps: the change of T falls by a factor of $e, 3.3 to 5 (second order: 4)" is_within "$e" 3.3 5
+}
+walls_refused() {
+    slab slab-bad 'type granularWall; mode coefficient; h 10; Ta 400;' "$(held 300)"
+    local of message
+    while IFS='|' read -r of message; do
+        sed -i "s/hot { [^}]*}/hot { type granularWall; $of }/" 0/T
+        check "refused: $of" foreseen "$message"
+    done <<-'END'
+	mode colder;|colder
+	mode flux; h 10;|the entry 'h' with mode flux, allowed: with mode coefficient
+	temperature -5;|the entry 'temperature' is -5 at the time 0, allowed: > 0
+	temperatur 300;|temperatur
+	mode temperature;|temperature
+	END
+    slab slab-nowall "$(held 400)" "$(held 300)"
+    sed -i 's/wall {[^}]*}//' constant/granularProperties
+    check "refused: no properties of the wall" foreseen "Entry 'wall' is missing: the conditions granularWall and granularContact of T need"
+}
+
 spheres_in_space
 own_contact
 radiating_contact
 contact_in_parts
 of_discs
 walls_that_cannot_be
+walls_not_meshed
+walls_in_time
+walls_refused

@@ -31,7 +31,7 @@ pub fn files(scene: &SphereCase, name: &str, checkout: &Path) -> Result<Vec<File
         Shape::Box(_) => template!("spheres/box"),
         Shape::Cylinder { .. } => template!("spheres/cylinder"),
     };
-    let mut files = programs(name, checkout, tolerance(scene), scene.number() as usize);
+    let mut files = programs(name, checkout, tolerance(scene), scene.number() as usize, scene.steady);
     files.extend([
         File { path: "README.md", text: filled(template!("spheres/README.md")), program: false },
         foam("constant/granularProperties", "dictionary", template!("spheres/granularProperties")),
@@ -100,9 +100,12 @@ fn values(scene: &SphereCase, name: &str, checkout: &Path) -> Result<Values, Cas
             scene.probes.iter().map(|probe| scene.shape.place(probe)).collect::<Vec<_>>().join("; "),
         ),
         ("spaceProbes", String::new()),
+        ("wallProfile", template!("spheres/wallProfile").to_string()),
         ("initialTemperature", plain(scene.initial_temperature)),
-        ("walls", walls(named()) + inner(&scene.shape)),
-        ("libraries", libraries(&scene.walls)),
+        ("walls", walls(named(), scene.wall_material.is_some()) + inner(&scene.shape)),
+        ("libraries", libraries(&scene.walls, scene.wall_material.is_some())),
+        ("wall", scene.wall_material.map_or(String::new(), |wall| wall.entry(&scene.spheres))),
+        ("wallResistance", wall_resistance(scene)),
         ("wallRows", wall_rows(named())),
         ("wedge", wedge(&scene.shape).to_string()),
         ("heatSource", plain(scene.heat_source.unwrap_or(0.0))),
@@ -246,6 +249,21 @@ fn held(scene: &SphereCase) -> String {
         false => String::new(),
     };
     format!("{top}, the side is {side}; {friction}{give}")
+}
+
+/// The resistance of the walls, for README.md.
+fn wall_resistance(scene: &SphereCase) -> String {
+    match scene.wall_material {
+        Some(wall) => format!(
+            "Walls that heat passes are of {}: the resistance between wall and spheres, which touch it in one layer, is in series with \
+             what `0/T` gives (condition `granularWall`; `resistance off` leaves it out).",
+            wall.name
+        ),
+        None => {
+            "A wall has its temperature where the mesh ends, without a resistance between wall and spheres."
+                .to_string()
+        }
+    }
 }
 
 /// What is left out of this bed, for README.md.

@@ -18,6 +18,7 @@ fn walls_and_stress_stand_where_the_solver_looks_for_them() {
     let shell = Some(Shell { young_modulus: 2e11, thickness: 0.002, thermal_expansion: 1.2e-5 });
     let vessel = SphereCase { shell, ..closed.clone() };
     let rough = SphereCase { wall_friction: 0.3, ..closed };
+    let bare = SphereCase { wall_material: None, steady: true, ..spheres() };
     let still = SphereCase { mechanics: Mechanics::None, ..spheres() };
     let flow = Some(Flow { mass: 0.0072, temperature: 813.0, upwards: true });
     let blown = SphereCase { flow, walls: walls_of(["insulated"; 3]).to_vec(), ..spheres() };
@@ -56,6 +57,23 @@ fn walls_and_stress_stand_where_the_solver_looks_for_them() {
         (&rough, GRAINS, "restStress", false),
         (&rough, "constant/g", "value", true),
         (&rough, "0/stress", "uniform", true),
+        (
+            &still,
+            "0/T",
+            "type            granularWall;\n        mode            temperature;\n        temperature     400;",
+            true,
+        ),
+        (
+            &still,
+            GRAINS,
+            "wall { thermalConductivity 50; youngModulus 2.1e11; poissonRatio 0.3; roughness 3.4e-7; hardness 1.5e9; }",
+            true,
+        ),
+        (&still, "system/controlDict", "libgranularThermo.so", true),
+        (&bare, "0/T", "granularWall;", false),
+        (&bare, "0/T", "type    fixedValue;\n        value   uniform 400;", true),
+        (&bare, GRAINS, "wall {", false),
+        (&bare, "system/fvSolution", "stopWhenSteady          1e-3;", true),
         (&still, GRAINS, "equilibriumCoeffs", false),
         (&still, GRAINS, "throughCoeffs", false),
         (&blown, GRAINS, "massFlow        0.0001;", true),

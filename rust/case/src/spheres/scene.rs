@@ -3,7 +3,7 @@
 use super::material::Spheres;
 use super::shape::Shape;
 use super::start::{Gas, InitialBed, LATERAL, PouredBed};
-use super::wall;
+use super::wall::{self, WallMaterial};
 use crate::CaseError;
 use crate::numbers::{plain, rounded};
 use crate::ranges::{self, allow};
@@ -79,6 +79,8 @@ pub struct SphereCase {
     pub slack_layer: f64,
     /// Coefficient of friction of spheres and the walls that stay; 0: smooth.
     pub wall_friction: f64,
+    /// Material of the walls that heat passes; none: they have their temperature where the mesh ends.
+    pub wall_material: Option<WallMaterial>,
     /// Acceleration downwards \[m/s²\].
     pub gravity: f64,
     /// Heat released in the bed \[W/m³\], negative for a sink.
@@ -87,6 +89,8 @@ pub struct SphereCase {
     pub end_time: f64,
     /// Largest error of T that a time step may add \[K\]; `None`: a thousandth of the range of T.
     pub tolerance: Option<f64>,
+    /// Whether the run ends before, once it is steady.
+    pub steady: bool,
     /// Points where T is recorded \[m\]: x, y, z, or distance from the axis and height.
     pub probes: Vec<Vec<f64>>,
 }

@@ -1,6 +1,76 @@
-//! The friction of a flat wall for a bed of spheres.
+//! The walls of a bed of spheres: the friction of a flat wall, and its material, from which the resistance between wall and spheres
+//! follows.
 
+use super::material::Spheres;
 use crate::numbers::{plain, rounded};
+
+/// The material of a wall.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct WallMaterial {
+    pub name: &'static str,
+    /// k \[W/(m K)\]
+    pub thermal_conductivity: f64,
+    /// \[Pa\]
+    pub young_modulus: f64,
+    pub poisson_ratio: f64,
+    /// \[Pa\], which counts where the spheres are rough.
+    pub hardness: f64,
+}
+
+/// Named materials of walls near room temperature, usual values of handbooks: structural steel, AISI 304, EN AW-6061, float glass. The
+/// first one is the default.
+pub const MATERIALS: [WallMaterial; 4] = [
+    WallMaterial {
+        name: "steel",
+        thermal_conductivity: 50.0,
+        young_modulus: 210e9,
+        poisson_ratio: 0.3,
+        hardness: 1.5e9,
+    },
+    WallMaterial {
+        name: "stainless-steel",
+        thermal_conductivity: 15.0,
+        young_modulus: 195e9,
+        poisson_ratio: 0.29,
+        hardness: 2e9,
+    },
+    WallMaterial {
+        name: "aluminium",
+        thermal_conductivity: 167.0,
+        young_modulus: 69e9,
+        poisson_ratio: 0.33,
+        hardness: 1.1e9,
+    },
+    WallMaterial {
+        name: "glass",
+        thermal_conductivity: 1.0,
+        young_modulus: 71e9,
+        poisson_ratio: 0.22,
+        hardness: 5.5e9,
+    },
+];
+
+impl WallMaterial {
+    /// The entry `wall` of `spheresCoeffs`, for spheres on a polished wall: they have the asperities, and the softer of both yields.
+    pub fn entry(&self, spheres: &Spheres) -> String {
+        let rough = match spheres.roughness > 0.0 {
+            true => format!(
+                " roughness {}; hardness {};",
+                plain(spheres.roughness),
+                plain(self.hardness.min(spheres.hardness))
+            ),
+            false => String::new(),
+        };
+        format!(
+            "\n        // Walls with the condition granularWall in 0/T: {}, polished. The resistance between wall and spheres follows from it\n\
+             \x20       wall {{ thermalConductivity {}; youngModulus {}; poissonRatio {};{rough} }}\n",
+            self.name,
+            plain(self.thermal_conductivity),
+            plain(self.young_modulus),
+            plain(self.poisson_ratio)
+        )
+    }
+}
 
 /// Usual coefficient of friction of a sphere on a wall: that between spheres, for which their law is valid.
 pub const OF_SPHERE: f64 = 0.3;

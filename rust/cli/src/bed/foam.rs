@@ -105,7 +105,7 @@ pub fn files(
     );
     let [low, high] = scene.temperatures();
     let tolerance = TOLERANCE * (high - low).max(1e-6);
-    let mut files = folder::programs(name, checkout, tolerance, scene.grains.number);
+    let mut files = folder::programs(name, checkout, tolerance, scene.grains.number, false);
     files.extend([
         text("README.md", readme(scene, start, name)),
         text("0/T", temperature(scene)),

@@ -21,6 +21,8 @@ use std::path::PathBuf;
 
 /// Proposed porosity of discs.
 const POROSITY: f64 = 0.125;
+/// End of a run that ends once it is steady, over the proposed end of others.
+const LATER: f64 = 10.0;
 /// Proposed difference between the hot wall's temperature and the initial one [K]; the paper's grains strain by 5 % then.
 pub(super) const HOTTER: f64 = 50.0;
 
@@ -93,6 +95,10 @@ pub struct CommonOptions {
     /// End of the simulation [s]. Allowed: 1e-9 to 1e12. Default: the time in which heat spreads over the box.
     #[arg(long, value_name = "S", help_heading = "Computation")]
     pub(super) end_time: Option<f64>,
+    /// The run ends before, once it is steady: key `stopWhenSteady` 1e-3 of `system/fvSolution`. The default of the end is then ten
+    /// times as late.
+    #[arg(long, help_heading = "Computation")]
+    pub(super) steady: bool,
     /// Largest error of the temperature that one time step may add [K]. Allowed: 1e-12 to 1e6. Default: a thousandth of the
     /// range of temperatures.
     #[arg(long, value_name = "K", help_heading = "Computation")]
@@ -146,6 +152,7 @@ impl CommonOptions {
             heat_source: self.ask_heat(prompter)?.filter(|&value| value != 0.0),
             end_time: 1.0,
             tolerance: self.tolerance,
+            steady: self.steady,
             probes: self.points(size)?,
         };
         scene.check()?;
@@ -170,6 +177,7 @@ impl CommonOptions {
         let help = "Heat spreads over a length L in a time of about L^2/D (D: thermal diffusivity of the bed). The proposal is that \
                     time for this bed: most of the change has happened by then.";
         let read = prompter.within(number, |&value| ranges::end_time(value));
+        let proposal = if self.steady { LATER * proposal } else { proposal };
         prompter.value(self.end_time, help, "End of the simulation [s]", &plain(proposal), read)
     }
 

@@ -14,7 +14,7 @@ use msdd_case::spheres::scene::{
 };
 use msdd_case::spheres::shape::Shape;
 use msdd_case::spheres::start::Gas;
-use msdd_case::spheres::wall;
+use msdd_case::spheres::wall::{self, WallMaterial};
 use msdd_case::values::describe;
 use msdd_case::walls::WallOverTime;
 
@@ -97,6 +97,10 @@ pub struct SphereOptions {
     /// the case has: 0.154 for 0.3. Allowed: >= 0. Default: 0.3, as between the spheres; 0 with `--mechanics none`.
     #[arg(long, value_name = "MU", requires = "spheres")]
     wall_friction: Option<f64>,
+    /// Material of the walls that heat passes, from which the resistance between wall and spheres follows; `none`: walls have
+    /// their temperature where the mesh ends. Allowed: `steel`, `stainless-steel`, `aluminium`, `glass`, `none`. Default: `steel`.
+    #[arg(long, value_name = "NAME", value_parser = parse_wall_material, requires = "spheres")]
+    wall_material: Option<WallChoice>,
     /// Gravity [m/s2], downwards; 0: a bed without weight. Allowed: 0 to 1000; 0 with `--mechanics none`. Default: 9.81; 0
     /// with `--mechanics none`.
     #[arg(long, value_name = "M/S2", requires = "spheres")]
@@ -124,6 +128,22 @@ enum LidName {
 fn parse_gas(text: &str) -> Result<GasName, String> {
     let names = || GasName::ALL.map(GasName::as_str).join(", ");
     GasName::ALL.into_iter().find(|gas| gas.as_str() == text).ok_or_else(names)
+}
+
+/// The material of walls, or none.
+#[derive(Clone, Copy)]
+struct WallChoice(Option<WallMaterial>);
+
+fn parse_wall_material(text: &str) -> Result<WallChoice, String> {
+    let names =
+        || wall::MATERIALS.iter().map(|material| material.name).collect::<Vec<_>>().join(", ") + ", none";
+    match text {
+        "none" => Ok(WallChoice(None)),
+        _ => {
+            let named = wall::MATERIALS.into_iter().find(|material| material.name == text);
+            named.map(|material| WallChoice(Some(material))).ok_or_else(names)
+        }
+    }
 }
 
 fn parse_shell(text: &str) -> Result<Shell, String> {
@@ -181,10 +201,12 @@ impl SphereOptions {
             shell: self.shell,
             slack_layer: self.slack_layer.unwrap_or(if stays { GIVE } else { 0.0 }),
             wall_friction,
+            wall_material: self.wall_material.map_or(Some(wall::MATERIALS[0]), |choice| choice.0),
             gravity,
             heat_source: common.ask_heat(prompter)?.filter(|&value| value != 0.0),
             end_time: 1.0,
             tolerance: common.tolerance,
+            steady: common.steady,
             probes: common.probes.iter().map(|point| point.0.clone()).collect(),
         };
         scene.check()?;

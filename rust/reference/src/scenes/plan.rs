@@ -256,6 +256,7 @@ impl PlannedScene {
             heat_source: None,
             end_time: self.end,
             tolerance: None,
+            steady: false,
             probes: PROBES.map(|share| [share[0] * size[0], share[1] * size[1]]).to_vec(),
         })
     }

@@ -214,6 +214,12 @@ impl<'a> Reader<'a> {
                     Some(Entry::Value(tokens)) => schedule(tokens, 1, |value| value[0]),
                     _ => None,
                 },
+                "granularWall" if condition.get("temperature").is_some() => {
+                    self.notes.push(format!(
+                        "0/T: the wall {wall} holds the first layer at the temperature of '{patch}'; its resistance is left out"
+                    ));
+                    schedule(condition.value("temperature")?, 1, |value| value[0])
+                }
                 "zeroGradient" => continue,
                 "fixedGradient" if condition.uniform("gradient").is_ok_and(|gradient| gradient == 0.0) => {
                     continue;
