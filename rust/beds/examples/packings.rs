@@ -38,6 +38,7 @@ fn main() -> Result<(), Box<dyn Error>> {
                 spheres,
                 seed,
                 diameter: 1.0,
+                sizes: None,
                 material: material(friction),
                 pressure: 1e-5,
                 steps: 400_000,
@@ -127,7 +128,8 @@ fn material(friction: f64) -> Material {
 /// Packed with a friction, opened by 0.5 %, mixed, and pressed again with a friction of 0.3.
 fn shaken(spheres: usize, seed: u64, friction: f64) -> Result<(), Box<dyn Error>> {
     let material = material(friction);
-    let mut packing = Packing { spheres, seed, diameter: 1.0, material, pressure: 1e-6, steps: 400_000 };
+    let mut packing =
+        Packing { spheres, seed, diameter: 1.0, sizes: None, material, pressure: 1e-6, steps: 400_000 };
     let mut simulation = pack(&packing)?.simulation;
     (packing.material, packing.pressure) = (self::material(0.3), SHAKEN);
     shake(&mut simulation, &packing, [1.0; 3], 0.005)?;
@@ -147,7 +149,8 @@ fn poured(spheres: usize, seed: u64) -> Result<(), Box<dyn Error>> {
         let material =
             Material { density: 7750.0, stiffness, friction: 0.3, wall_friction: 0.3, restitution: 0.8 };
         let (gravity, longest, threads) = (9.81, 10.0, 1);
-        let pouring = Pouring { spheres, seed, diameter, material, container, gravity, longest, threads };
+        let pouring =
+            Pouring { spheres, seed, diameter, sizes: None, material, container, gravity, longest, threads };
         let (bed, _) = pour(&pouring, |_| ())?;
         let floor = bed.boundary.walls()[0];
         let mut heights: Vec<f64> = bed.spheres.iter().map(|s| floor.distance(s.position)).collect();

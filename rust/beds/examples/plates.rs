@@ -39,8 +39,17 @@ fn main() -> Any<()> {
     let (spheres, seed, walks) = (number(700)? as usize, number(1)?, number(500_000)? as usize);
     let container = Container::Endless { base: [SIDE * DIAMETER; 2] };
     let (diameter, gravity, longest, threads) = (DIAMETER, 9.81, 10.0, 1);
-    let pouring =
-        Pouring { spheres, seed, diameter, material: material(), container, gravity, longest, threads };
+    let pouring = Pouring {
+        spheres,
+        seed,
+        diameter,
+        sizes: None,
+        material: material(),
+        container,
+        gravity,
+        longest,
+        threads,
+    };
     let (mut bed, _) = pour(&pouring, |_| ())?;
     let mut surfaces = vec![("floor", places(&bed, 0)), ("free surface", places(&bed, 1))];
     for (name, pressure) in [("lid, 1 kPa", 1e3), ("lid, 10 kPa", 1e4)] {

@@ -55,7 +55,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 fn packing(spheres: usize, seed: u64, friction: f64) -> Packing {
     let stiffness = Stiffness::HertzMindlin { young_modulus: 1.0, poisson_ratio: 0.25 };
     let material = Material { density: 1.0, stiffness, friction, wall_friction: 0.0, restitution: 0.3 };
-    Packing { spheres, seed, diameter: 1.0, material, pressure: 1e-6, steps: 400_000 }
+    Packing { spheres, seed, diameter: 1.0, sizes: None, material, pressure: 1e-6, steps: 400_000 }
 }
 
 fn factors(spheres: usize, seeds: u64, rays: usize) -> Result<(), Box<dyn Error>> {

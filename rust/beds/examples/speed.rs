@@ -69,6 +69,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         spheres,
         seed: 1,
         diameter: 1.0,
+        sizes: None,
         material: Material {
             density: 1.0,
             stiffness: Stiffness::HertzMindlin { young_modulus: 1.0, poisson_ratio: 0.25 },

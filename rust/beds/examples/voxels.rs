@@ -27,7 +27,15 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             let stiffness = Stiffness::HertzMindlin { young_modulus: 1.0, poisson_ratio: 0.25 };
             let material =
                 Material { density: 1.0, stiffness, friction, wall_friction: 0.0, restitution: 0.3 };
-            let packing = Packing { spheres, seed, diameter: 1.0, material, pressure: 1e-6, steps: 400_000 };
+            let packing = Packing {
+                spheres,
+                seed,
+                diameter: 1.0,
+                sizes: None,
+                material,
+                pressure: 1e-6,
+                steps: 400_000,
+            };
             let simulation = pack(&packing)?.simulation;
             let volume = simulation.cell().map_or(0.0, |cell| cell.volume());
             let edge = volume.cbrt();

@@ -53,7 +53,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     for seed in 1..=if radiates { 1 } else { seeds } {
         let (diameter, gravity, longest, threads) = (DIAMETER, 9.81, 10.0, 1);
         let material = material.clone();
-        let pouring = Pouring { spheres, seed, diameter, material, container, gravity, longest, threads };
+        let pouring =
+            Pouring { spheres, seed, diameter, sizes: None, material, container, gravity, longest, threads };
         let (mut bed, _) = pour(&pouring, |_| ())?;
         if radiates {
             press(&mut bed, WALLS[1], (2e4, container.area()), longest, |_| ())?;

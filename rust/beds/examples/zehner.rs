@@ -58,6 +58,7 @@ fn packed(seeds: u64, file: &Path) -> Any<()> {
                 spheres: 1000,
                 seed,
                 diameter: 1.0,
+                sizes: None,
                 material,
                 pressure: PRESSURE,
                 steps: 400_000,

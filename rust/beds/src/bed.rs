@@ -86,8 +86,7 @@ pub fn prepare(
     if let Some(lid) = &case.lid {
         let (wall, area) = (number("lid"), pouring.container.area());
         let watch = |agitation| watch("lid", progress(agitation));
-        let solid = grains.number as f64 * std::f64::consts::PI / 6.0 * d.powi(3);
-        let rest = match (lid.depth(solid, area), lid.pressure) {
+        let rest = match (lid.depth(grains.volume(), area), lid.pressure) {
             (Some(depth), _) => close(&mut simulation, wall, depth, allowed, watch)?,
             (None, pressure) => {
                 press(&mut simulation, wall, (pressure.unwrap_or_default(), area), allowed, watch)?

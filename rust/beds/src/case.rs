@@ -7,6 +7,7 @@ use crate::pour::{Container, Pouring, WIDEST};
 use crate::property::{Property, VALUES};
 use crate::rays::Enclosure;
 use crate::settle::longest;
+use crate::sizes::{Moments, Sizes};
 use msdd_engine::message::{number, range};
 use msdd_files::{FileError, read_text};
 use msdd_spheres::{Material, Simulation, Stiffness};
@@ -41,13 +42,13 @@ pub struct BedCase {
     pub vary: Vec<Vary>,
 }
 
-/// Equal spheres.
+/// The spheres.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Grains {
     /// Number of spheres. Allowed: `NUMBERS`.
     pub number: usize,
-    /// Diameter of all of them \[m\]. Allowed: `POSITIVE`.
+    /// Diameter of all of them; with `sizes`, their Sauter mean Σ d³/Σ d² \[m\]. Allowed: `POSITIVE`.
     pub diameter: f64,
     /// Density of their material [kg/m³]. Allowed: `POSITIVE`.
     pub density: f64,
@@ -84,6 +85,11 @@ pub struct Grains {
     /// Linear coefficient of thermal expansion, in `dem.toml` alone [1/K]. Allowed: `EXPANSIONS`. Default: spheres keep their
     /// size.
     pub thermal_expansion: Option<f64>,
+    /// Distribution of the diameters, scaled so that their Sauter mean is `diameter`; one of `uniform = [least, most]` (by number),
+    /// `normal = s`, `log_normal = s` (standard deviation over the mean by number, cut at two standard deviations), and
+    /// `sieve = [[opening, share of the mass that passes], ...]`. Allowed: up to 1:4. Default: equal spheres.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub sizes: Option<Sizes>,
 }
 
 /// What the grains are poured into: `base` or `radius`.
@@ -350,6 +356,7 @@ impl BedCase {
     /// Key, value, what is allowed of the first value outside its range.
     fn check(&self) -> Result<(), (String, String, String)> {
         let range = self.temperatures();
+        self.grains.check_sizes()?;
         for (key, value, allowed, good) in self.numbers() {
             if !good {
                 return Err((key.to_string(), number(value), allowed.to_string()));
@@ -461,9 +468,9 @@ const SCALED_ERROR: f64 = 2.0;
 const SIMULATED: &str = "1e-12 to that of the material, young_modulus";
 const ACCOMMODATION: &str = "0 < accommodation <= 1";
 const OUTPUT_EVERY: &str = "a hundred-thousandth of end, to end";
-const ONE_DIAMETER: &str = "one diameter at least";
-const TWO_DIAMETERS: &str = "two diameters at least";
-const MORE_DIAMETERS: &str = "two and a half diameters at least";
+const ONE_DIAMETER: &str = "one diameter of the largest grain at least";
+const TWO_DIAMETERS: &str = "two diameters of the largest grain at least";
+const MORE_DIAMETERS: &str = "two and a half diameters of the largest grain at least";
 const WIDE: &str = "a floor of at most 10 squares of the diameter for each grain";
 
 fn inside(value: f64, [low, high]: [f64; 2]) -> bool {
@@ -533,11 +540,11 @@ impl Grains {
 
     /// Pours the grains into a container under `gravity` \[m/s²\].
     pub(crate) fn pouring(&self, seed: u64, container: Container, gravity: f64, threads: usize) -> Pouring {
-        let height = container.loose_height(self.number, self.diameter).max(container.width());
-        Pouring {
+        let mut pouring = Pouring {
             spheres: self.number,
             seed,
             diameter: self.diameter,
+            sizes: self.sizes.clone(),
             material: Material {
                 density: self.density,
                 stiffness: Stiffness::HertzMindlin {
@@ -550,9 +557,26 @@ impl Grains {
             },
             container,
             gravity,
-            longest: longest(self.diameter, gravity, height),
+            longest: 0.0,
             threads,
-        }
+        };
+        pouring.longest = longest(self.diameter, gravity, pouring.height().max(container.width()));
+        pouring
+    }
+
+    pub(crate) fn check_sizes(&self) -> Result<(), Wrong> {
+        let checked = self.sizes.as_ref().map_or(Ok(()), Sizes::check);
+        checked.map_err(|problem| ("grains.sizes".into(), problem.value, problem.allowed))
+    }
+
+    /// Of the diameters over the Sauter mean.
+    pub fn moments(&self) -> Moments {
+        Moments::new(self.sizes.as_ref(), self.number)
+    }
+
+    /// Volume of all grains \[m³\].
+    pub fn volume(&self) -> f64 {
+        self.number as f64 * std::f64::consts::PI / 6.0 * self.diameter.powi(3) * self.moments().volume
     }
 
     pub(crate) fn numbers(&self) -> Vec<Ranged> {
@@ -694,11 +718,12 @@ impl Vessel {
     }
 
     pub(crate) fn numbers(&self, grains: &Grains) -> Vec<Ranged> {
-        let (d, count) = (grains.diameter, grains.number as f64);
+        let (d, count) = (grains.diameter * grains.moments().largest, grains.number as f64);
         let base = self.base.unwrap_or([2.0 * d; 2]);
         let radius = self.radius.unwrap_or(d);
         // The other one of base and radius is just large enough.
-        let floor = (base[0] * base[1]).max(std::f64::consts::PI * radius * radius) / (count * d * d);
+        let floor = (base[0] * base[1]).max(std::f64::consts::PI * radius * radius)
+            / (count * grains.diameter * grains.diameter);
         // A grain must not meet two images of another.
         let (least, narrow) = match self.endless {
             false => (2.0, TWO_DIAMETERS),

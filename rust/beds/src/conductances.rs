@@ -5,7 +5,7 @@
 //! equation in packings of 100 spheres at κ = 1500, where the sum is within 4 %. Below κ of about 30 the heat spreads far
 //! from straight lines, and the law is 26 to 34 % too low at κ = 10: see [`crate::effective`].
 
-use crate::gas::gas_conductance;
+use crate::gas::unequal_conductance;
 use crate::solid::Solid;
 use msdd_engine::grid::{pairs_within, pairs_within_cell};
 use msdd_engine::lattice::Image;
@@ -35,6 +35,8 @@ pub struct Near {
     pub branch: [f64; 3],
     /// 2 R* \[m\]: that of two equal spheres which count as these two.
     pub radius: f64,
+    /// The smaller radius over 2 R*, by the masses: exactly 1 of equal spheres, whatever their temperatures.
+    pub smaller: f64,
     /// Distance of the surfaces \[m\], 0 if they touch.
     pub gap: f64,
 }
@@ -77,7 +79,9 @@ pub fn near_pairs(simulation: &Simulation) -> Vec<Near> {
         let (distance, reach) = (length(b.position), a.radius + b.radius);
         if distance < NEAR * reach {
             let (radius, gap) = (2.0 * a.radius * b.radius / reach, (distance - reach).max(0.0));
-            pairs.push(Near { i, j, branch: b.position, radius, gap });
+            let ratio = a.mass.min(b.mass) / a.mass.max(b.mass);
+            let smaller = if ratio == 1.0 { 1.0 } else { 0.5 * (1.0 + libm::cbrt(ratio)) };
+            pairs.push(Near { i, j, branch: b.position, radius, smaller, gap });
         }
     }
     pairs
@@ -92,9 +96,10 @@ pub fn gas_links(
 ) -> Vec<Link> {
     let pairs = near_pairs(simulation).into_iter();
     pairs
-        .map(|Near { i, j, branch, radius, gap }| {
-            let conductance = gas_conductance(conductivity, radius, gap + least_distance(radius));
-            Link { i, j, branch, conductance }
+        .map(|pair| {
+            let distance = pair.gap + least_distance(pair.radius);
+            let conductance = unequal_conductance(conductivity, pair.radius, pair.smaller, distance);
+            Link { i: pair.i, j: pair.j, branch: pair.branch, conductance }
         })
         .collect()
 }

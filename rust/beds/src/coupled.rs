@@ -137,8 +137,7 @@ pub fn side_friction(scene: &DemCase, row: &Row) -> Option<f64> {
     let [floor, side, lid] =
         ["floor", "side", "lid"].map(|name| scene.wall(name).map(|wall| row.walls[wall]));
     let (grains, area) = (&scene.grains, PI * row.radius * row.radius);
-    let weight =
-        grains.number as f64 * grains.density * PI / 6.0 * grains.diameter.powi(3) * scene.container.gravity;
+    let weight = grains.volume() * grains.density * scene.container.gravity;
     let normal = side? * 2.0 * PI * row.radius * row.depth;
     Some(((floor? - lid?) * area - weight) / normal)
 }

@@ -227,6 +227,7 @@ impl DemCase {
     fn check(&self) -> Result<(), Wrong> {
         let wrong =
             |key: &str, value: String, allowed: &str| Err((key.to_string(), value, allowed.to_string()));
+        self.grains.check_sizes()?;
         let mut numbers = self.grains.numbers();
         numbers.extend(self.container.numbers(&self.grains));
         numbers.extend(self.gas.numbers());
@@ -304,7 +305,8 @@ impl DemCase {
             (Some(inner), _) => PI * inner * inner,
             (None, _) => self.vessel().area(),
         };
-        let spheres = REFERENCE_FRACTION * area * (high - low) / (PI / 6.0 * d * d * d);
+        let volume = PI / 6.0 * d * d * d * self.grains.moments().volume;
+        let spheres = REFERENCE_FRACTION * area * (high - low) / volume;
         if spheres < MIN_SPHERES {
             let allowed = format!("a region of {MIN_SPHERES} spheres at least: more height, or a wider bed");
             return wrong(

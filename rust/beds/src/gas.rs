@@ -23,6 +23,8 @@
 
 use std::f64::consts::PI;
 
+/// Part of the heat beyond the edge of the smaller of two unequal spheres that the pair of equal ones has too much.
+const BEYOND: f64 = 0.75;
 /// What a plate gains on the integral over straight lines, over R.
 const AROUND: f64 = 0.56;
 
@@ -75,6 +77,16 @@ pub fn gas_conductance(conductivity: f64, radius: f64, distance: f64) -> f64 {
     0.5 * PI * conductivity * distance * lines(2.0 * radius / distance)
 }
 
+/// The same between spheres of radii r₁ < r₂: [`gas_conductance`] of equal spheres of `radius` 2 R* \[m\], which is exact near a contact, less
+/// ¾ of what passes there beyond the edge of the smaller sphere, π k_g (D/2 ln(D/(D − 2 s)) − s) with s² = (2 R*)² − r₁². `smaller` is
+/// r₁/(2 R*). Against random walks in packings with radii 5 and 10 % smaller this changes the error of the sum over pairs by 1 % for diameters
+/// that differ by ±40 % and for 1:2; without the last term it would by 5 and 11 % (`sizes gas` of the examples of msdd-rve).
+pub fn unequal_conductance(conductivity: f64, radius: f64, smaller: f64, distance: f64) -> f64 {
+    let equal = gas_conductance(conductivity, radius, distance);
+    let (s, both) = (radius * (1.0 - smaller * smaller).max(0.0).sqrt(), 2.0 * radius + distance);
+    equal - BEYOND * PI * conductivity * (0.5 * both * -libm::log1p(-2.0 * s / both) - s)
+}
+
 /// 2 π k_g (D ln(D/h) − R + 0.56 R/(1 + M/R)) \[W/K\], D = R + h, between a sphere and a plate; `distance` is h \[m\], `jump` M \[m\].
 pub fn plate_conductance(conductivity: f64, radius: f64, distance: f64, jump: f64) -> f64 {
     let around = AROUND * radius / (1.0 + jump / radius);
@@ -98,6 +110,29 @@ mod tests {
             })
             .sum();
         assert!((gas_conductance(conductivity, radius, distance) / sum - 1.0).abs() < 1e-5);
+    }
+
+    /// Equal spheres have the bytes of [`gas_conductance`]. Of 1:2, what is taken off is ¾ of the sum over the rays beyond the smaller
+    /// sphere; near a contact both laws rise alike as h falls.
+    #[test]
+    fn unequal_spheres_lose_rays_beyond_the_smaller_one() {
+        let (radius, distance) = (4e-3, 2e-5);
+        assert_eq!(
+            unequal_conductance(0.026, radius, 1.0, distance),
+            gas_conductance(0.026, radius, distance)
+        );
+        let edge: f64 = 3e-3;
+        let most = (radius * radius - edge * edge).sqrt();
+        let count = 100_000;
+        let beyond: f64 = (0..count)
+            .map(|k| {
+                let s = most * (f64::from(k) + 0.5) / f64::from(count);
+                2.0 * PI * 0.026 * s / (distance + 2.0 * (radius - s)) * most / f64::from(count)
+            })
+            .sum();
+        let lost = |h: f64| gas_conductance(0.026, radius, h) - unequal_conductance(0.026, radius, 0.75, h);
+        assert!((lost(distance) / (0.75 * beyond) - 1.0).abs() < 1e-6);
+        assert!((lost(1e-9) / lost(1e-7) - 1.0).abs() < 1e-3);
     }
 
     /// Half of the mirrored pair has twice its conductance; the rest is what goes around.

@@ -5,6 +5,7 @@
 //! | module | what |
 //! |---|---|
 //! | [`random`] | seeded random numbers |
+//! | [`sizes`] | diameters of unequal spheres |
 //! | [`scatter`] | random loose spheres to start from |
 //! | [`averages`](mod@averages) | solid fraction, coordination, stress of a periodic box |
 //! | [`settle`](mod@settle) | coming to rest under gravity; turning it |
@@ -79,6 +80,7 @@ pub mod rows;
 pub mod scatter;
 pub mod schedule;
 pub mod settle;
+pub mod sizes;
 pub mod solid;
 mod solve;
 pub mod transient;
@@ -98,6 +100,8 @@ pub enum BedError {
     Packing { key: &'static str, value: f64, allowed: &'static str },
     #[error("pouring: {key} = {value}, allowed: {allowed}", value = msdd_engine::message::number(*value))]
     Pouring { key: &'static str, value: f64, allowed: &'static str },
+    #[error("packing: sizes = {0}")]
+    Sizes(#[from] sizes::SizesError),
     #[error("pressing: a wall that is not flat, allowed: flat walls")]
     NotFlat,
     #[error(

@@ -64,8 +64,15 @@ mod tests {
                 wall_friction: 0.0,
                 restitution: 0.3,
             };
-            let packing =
-                Packing { spheres: 100, seed: 5, diameter: 1.0, material, pressure: 1e-4, steps: 200_000 };
+            let packing = Packing {
+                spheres: 100,
+                seed: 5,
+                diameter: 1.0,
+                sizes: None,
+                material,
+                pressure: 1e-4,
+                steps: 200_000,
+            };
             pack(&packing).unwrap().simulation
         };
         let (mut smooth, rough) = (packed(0.0), packed(0.3));

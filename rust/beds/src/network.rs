@@ -4,7 +4,7 @@ use crate::conductances::{Near, near_pairs};
 use crate::correlation::STEFAN_BOLTZMANN;
 use crate::effective::{contact_factor, gas_alone, pair_factor};
 use crate::exchange::Exchange;
-use crate::gas::{Gas, gas_conductance};
+use crate::gas::{Gas, unequal_conductance};
 use crate::named_gases::GasName;
 use crate::plate_view_areas::{Facing, facing};
 use crate::property::Property;
@@ -266,7 +266,8 @@ impl Network {
                     0.5 * (a.least_distance(near.radius, solid) + b.least_distance(near.radius, solid));
                 let factor = 0.5 * (poor(a, solid, near.radius) + poor(b, solid, near.radius));
                 let conductivity = 0.5 * factor * (a.conductivity + b.conductivity);
-                links.push((near.i, near.j, gas_conductance(conductivity, near.radius, near.gap + least)));
+                let (radius, smaller, distance) = (near.radius, near.smaller, near.gap + least);
+                links.push((near.i, near.j, unequal_conductance(conductivity, radius, smaller, distance)));
             }
         }
         let beside = |b: &Beside| {

@@ -1,17 +1,21 @@
-//! Packing: a periodic box of equal spheres is compressed until it bears a pressure, isotropically or along given axes.
+//! Packing: a periodic box of spheres is compressed until it bears a pressure, isotropically or along given axes.
 //!
 //! Friction while packing decides how dense the packing gets: from a solid fraction of 0.64 without friction to 0.57.
 
 use crate::BedError;
 use crate::averages::{Averages, averages, stress};
 use crate::scatter::{Random, scatter};
+use crate::sizes::{Moments, Sizes, radii};
 use msdd_spheres::{Boundary, Cell, Material, Simulation, Sphere, Stiffness};
 use serde::{Deserialize, Serialize};
+use std::f64::consts::PI;
 
 /// Solid fraction at the start; random sequential addition ends at 0.38.
 const LOOSE: f64 = 0.3;
 /// Solid fraction near which a box that is compressed along given axes becomes a cube.
 const DENSE: f64 = 0.6;
+/// Least edge of a dense box over the largest diameter: a sphere must not meet two images of another.
+const NARROWEST: f64 = 2.5;
 /// Steps between two adjustments of the rate.
 const LOOK_EVERY: u64 = 20;
 /// Largest strain rate over √(p/ρ)/d, the inertial number of the compression. Not settled by any reference; chosen because
@@ -35,8 +39,11 @@ const BALANCED: [f64; 2] = [1e-4, 1e-8];
 pub struct Packing {
     pub spheres: usize,
     pub seed: u64,
-    /// d \[m\]
+    /// d \[m\], the Sauter mean.
     pub diameter: f64,
+    /// Of the diameters; none: equal ones.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub sizes: Option<Sizes>,
     /// The friction in it is that while packing.
     pub material: Material,
     /// p \[Pa\]
@@ -57,8 +64,13 @@ impl Packing {
     fn check(&self) -> Result<(), BedError> {
         self.material.check()?;
         let positive = |v: f64| v.is_finite() && v > 0.0;
+        self.sizes.as_ref().map_or(Ok(()), Sizes::check)?;
+        let moments = Moments::new(self.sizes.as_ref(), self.spheres);
+        let dense = libm::cbrt(self.spheres as f64 * PI / 6.0 * moments.volume / DENSE);
+        let across = dense / moments.largest;
         let parameters = [
             ("spheres", self.spheres as f64, (50..=10_000_000).contains(&self.spheres), "50 to 10000000"),
+            ("edge over the largest diameter", across, across >= NARROWEST, "2.5 or more: more spheres"),
             ("diameter", self.diameter, positive(self.diameter), "above 0 m"),
             ("pressure", self.pressure, positive(self.pressure), "above 0 Pa"),
             (
@@ -94,14 +106,16 @@ pub fn pack(packing: &Packing) -> Result<Packed, BedError> {
 pub fn pack_along(packing: &Packing, rates: [f64; 3]) -> Result<Packed, BedError> {
     packing.check()?;
     let &Packing { spheres: count, seed, diameter, pressure, .. } = packing;
-    let radius = 0.5 * diameter;
     let density = packing.material.density;
-    let volume = count as f64 * std::f64::consts::PI / 6.0 * diameter.powi(3);
+    let sizes = packing.sizes.as_ref();
+    let radii = radii(sizes, count, diameter);
+    let volume = count as f64 * PI / 6.0 * diameter.powi(3) * Moments::new(sizes, count).volume;
     let edge = libm::cbrt(volume / LOOSE);
     let sum: f64 = rates.iter().sum();
     let edges = rates.map(|rate| edge * libm::pow(DENSE / LOOSE, rate / sum - 1.0 / 3.0));
-    let centres = scatter(&mut Random::new(seed), count, radius, edges)?;
-    let spheres = centres.into_iter().map(|centre| Sphere::at_rest(centre, radius, density)).collect();
+    let places = scatter(&mut Random::new(seed), &radii, edges)?;
+    let spheres =
+        places.into_iter().map(|(centre, radius)| Sphere::at_rest(centre, radius, density)).collect();
     let cell = Cell::block(edges);
     let mut simulation = Simulation::new(packing.material.clone(), spheres, Boundary::Periodic(cell))?;
     let settled = compress(&mut simulation, packing, rates, (pressure / density).sqrt() / diameter)?;

@@ -269,7 +269,8 @@ mod tests {
     /// Spheres share the plate: in a box, in a cylinder, and in a cell that repeats itself.
     #[test]
     fn the_plate_is_shared_without_overlap() {
-        let centres = scatter(&mut Random::new(4), 60, 0.5, [6.0, 5.0, 4.0]).expect("room");
+        let centres = scatter(&mut Random::new(4), &[0.5; 60], [6.0, 5.0, 4.0]).expect("room");
+        let centres: Vec<[f64; 3]> = centres.into_iter().map(|(centre, _)| centre).collect();
         let total = |simulation: &Simulation, wall: usize| -> f64 {
             facing(simulation, wall).iter().map(Facing::area).sum()
         };

@@ -6,6 +6,7 @@
 use crate::BedError;
 use crate::scatter::Random;
 use crate::settle::{Rest, descent, settle};
+use crate::sizes::{Moments, Sizes, radii};
 use msdd_spheres::time_step::SAFETY;
 use msdd_spheres::{Boundary, Cell, Material, Simulation, Sphere, Wall};
 use std::f64::consts::PI;
@@ -38,9 +39,9 @@ impl Container {
         }
     }
 
-    /// Height of so many loose grains in it, as they begin \[m\].
-    pub(crate) fn loose_height(&self, spheres: usize, diameter: f64) -> f64 {
-        diameter + spheres as f64 * PI / 6.0 * diameter * diameter * diameter / LOOSE / self.area()
+    /// Height of loose grains of this volume \[m³\] and largest diameter \[m\] in it, as they begin \[m\].
+    fn loose_height(&self, volume: f64, largest: f64) -> f64 {
+        largest + volume / LOOSE / self.area()
     }
 
     /// Its longest side across \[m\].
@@ -99,8 +100,10 @@ impl Container {
 pub struct Pouring {
     pub spheres: usize,
     pub seed: u64,
-    /// d \[m\]
+    /// d \[m\], the Sauter mean.
     pub diameter: f64,
+    /// Of the diameters; none: equal ones.
+    pub sizes: Option<Sizes>,
     pub material: Material,
     pub container: Container,
     /// g \[m/s²\], along −z.
@@ -111,9 +114,21 @@ pub struct Pouring {
 }
 
 impl Pouring {
+    fn moments(&self) -> Moments {
+        Moments::new(self.sizes.as_ref(), self.spheres)
+    }
+
+    /// Of the column of grains, as they begin \[m\].
+    pub(crate) fn height(&self) -> f64 {
+        let (d, moments) = (self.diameter, self.moments());
+        let volume = self.spheres as f64 * PI / 6.0 * d * d * d * moments.volume;
+        self.container.loose_height(volume, d * moments.largest)
+    }
+
     /// The time step of the spheres as they come down \[s\]; NaN for a material that there is not.
     pub fn step(&self) -> f64 {
-        let mut sphere = Sphere::at_rest([0.0; 3], 0.5 * self.diameter, self.material.density);
+        let radius = 0.5 * self.diameter * self.moments().smallest;
+        let mut sphere = Sphere::at_rest([0.0; 3], radius, self.material.density);
         sphere.velocity = [0.0, 0.0, -descent(self.diameter, self.gravity).0];
         let floor = Wall::at_rest([0.0, 0.0, -self.diameter], [0.0, 0.0, 1.0]);
         let one = Simulation::new(self.material.clone(), vec![sphere], Boundary::Walls(vec![floor]));
@@ -122,7 +137,7 @@ impl Pouring {
 
     /// Time \[s\] in which the spheres come down, about.
     pub(crate) fn fall(&self) -> f64 {
-        self.container.loose_height(self.spheres, self.diameter) / descent(self.diameter, self.gravity).0
+        self.height() / descent(self.diameter, self.gravity).0
     }
 
     fn check(&self) -> Result<(), BedError> {
@@ -130,13 +145,15 @@ impl Pouring {
         let positive = |v: f64| v.is_finite() && v > 0.0;
         let narrow = self.container.extent().map(|[low, high]| high - low);
         let narrow = narrow[0].min(narrow[1]);
+        self.sizes.as_ref().map_or(Ok(()), Sizes::check)?;
+        let least = 2.0 * self.diameter * self.moments().largest;
         let floor = self.container.area() / (self.spheres as f64 * self.diameter * self.diameter);
         let parameters = [
             ("spheres", self.spheres as f64, (1..=10_000_000).contains(&self.spheres), "1 to 10000000"),
             ("diameter", self.diameter, positive(self.diameter), "above 0 m"),
             ("gravity", self.gravity, positive(self.gravity), "above 0 m/s2"),
             ("longest", self.longest, positive(self.longest), "above 0 s"),
-            ("size", narrow, narrow >= 2.0 * self.diameter, "two diameters at least"),
+            ("size", narrow, narrow >= least, "two diameters of the largest grain at least"),
             ("floor", floor, floor <= WIDEST, "10 squares of the diameter for each grain, at most"),
         ];
         match parameters.into_iter().find(|parameter| !parameter.2) {
@@ -148,15 +165,15 @@ impl Pouring {
     /// The grains in the column above the floor, and the height of their column \[m\]. They are in the order of their places, first
     /// along the longer side of the base, along which they move least.
     fn rain(&self) -> Result<(Vec<Sphere>, f64), BedError> {
-        let (d, r) = (self.diameter, 0.5 * self.diameter);
+        let d = self.diameter * self.moments().largest;
         let [[x0, x1], [y0, y1]] = self.container.extent();
-        let height = self.container.loose_height(self.spheres, d);
+        let height = self.height();
         let count = [(x1 - x0) / d, (y1 - y0) / d, height / d].map(|n| n as usize + 1);
-        let mut cells: Vec<Vec<[f64; 3]>> = vec![Vec::new(); count.iter().product()];
+        let mut cells: Vec<Vec<([f64; 3], f64)>> = vec![Vec::new(); count.iter().product()];
         let place = |[x, y, z]: [f64; 3]| [(x - x0) / d, (y - y0) / d, z / d].map(|n| n as usize);
         let number = |[x, y, z]: [usize; 3]| (y * count[2] + z) * count[0] + x;
         let mut random = Random::new(self.seed);
-        for placed in 0..self.spheres {
+        for (placed, &r) in radii(self.sizes.as_ref(), self.spheres, self.diameter).iter().enumerate() {
             let free = (0..ATTEMPTS).find_map(|_| {
                 let centre = [
                     random.uniform(x0 + r, x1 - r),
@@ -171,25 +188,25 @@ impl Pouring {
                     let shift = [code % 3, code / 3 % 3, code / 9];
                     let cell: [usize; 3] = std::array::from_fn(|k| (home[k] + shift[k]).wrapping_sub(1));
                     (0..3).all(|k| cell[k] < count[k])
-                        && cells[number(cell)].iter().any(|other| {
+                        && cells[number(cell)].iter().any(|(other, radius)| {
                             let square: f64 =
                                 (0..3).map(|k| (centre[k] - other[k]) * (centre[k] - other[k])).sum();
-                            square < d * d
+                            square < (r + radius) * (r + radius)
                         })
                 });
                 (!clash).then_some((centre, number(home)))
             });
             let (centre, home) = free.ok_or(BedError::NoRoom { placed, wanted: self.spheres })?;
-            cells[home].push(centre);
+            cells[home].push((centre, r));
         }
         let density = self.material.density;
-        let velocity = [0.0, 0.0, -descent(d, self.gravity).0];
-        let sphere = |centre| {
+        let velocity = [0.0, 0.0, -descent(self.diameter, self.gravity).0];
+        let sphere = |(centre, r)| {
             let mut sphere = Sphere::at_rest(centre, r, density);
             sphere.velocity = velocity;
             sphere
         };
-        Ok((cells.into_iter().flatten().map(sphere).collect(), height + r))
+        Ok((cells.into_iter().flatten().map(sphere).collect(), height + 0.5 * d))
     }
 }
 

@@ -86,6 +86,34 @@ fn face_centred_cubic() {
     check(&crystal(2.0f64.sqrt(), &basis), 8.0f64.sqrt());
 }
 
+/// Spheres of two sizes in the crystal of caesium chloride, which touch those of the other size alone: eight contacts in a cell of the
+/// edge a, each with a part of a/2 along an axis, K = 2 G/a with G = 2 k a_c, a_c = (3 F R*/(4 E*))^(1/3).
+#[test]
+fn unequal_spheres_conduct_by_their_effective_radius() {
+    let (cells, radii) = (3, [RADIUS, 1.3 * RADIUS]);
+    let apart = (radii[0] + radii[1]) * (1.0 - OVERLAP);
+    let edge = 2.0 / 3f64.sqrt() * apart;
+    let spheres = (0..2 * cells * cells * cells).map(|k| {
+        let (kind, cell) = (k % 2, k / 2);
+        let corner = [cell % cells, cell / cells % cells, cell / cells / cells];
+        Sphere::at_rest(corner.map(|c| edge * (c as f64 + 0.5 * kind as f64)), radii[kind], 7850.0)
+    });
+    let boundary = Boundary::Periodic(Cell::block([edge * cells as f64; 3]));
+    let simulation = Simulation::new(material(5e9), spheres.collect(), boundary).unwrap();
+    let reduced = radii[0] * radii[1] / (radii[0] + radii[1]);
+    let overlap = OVERLAP * (radii[0] + radii[1]);
+    let force = 4.0 / 3.0 * effective_modulus(5e9, 0.29) * reduced.sqrt() * overlap.powf(1.5);
+    let contact = (0.75 * force * reduced / STEEL.effective_modulus).cbrt();
+    let expected = 2.0 * 2.0 * STEEL.conductivity * contact / edge;
+    let found = solve(&simulation, &contact_links(&simulation, &STEEL)).network;
+    for (row, numbers) in found.iter().enumerate() {
+        for (column, number) in numbers.iter().enumerate() {
+            let wanted = if row == column { expected } else { 0.0 };
+            assert!(((number - wanted) / expected).abs() < 1e-9, "{row} {column}: {number} {expected}");
+        }
+    }
+}
+
 /// The network conducts less than the affine estimate; contacts and gas in one network conduct at least the sum of both,
 /// and little more; a stiffer material conducts less, as E^(-1/3).
 #[test]
@@ -94,6 +122,7 @@ fn random_packing() {
         spheres: 250,
         seed: 2,
         diameter: 2.0 * RADIUS,
+        sizes: None,
         material: material(5e9),
         pressure: 5e4,
         steps: 100_000,
@@ -138,7 +167,15 @@ fn nothing_conducts_nothing() {
 fn pairs_of_poor_spheres_conduct_as_the_closure_says() {
     for (friction, seed) in [(0.0, 3), (0.5, 4)] {
         let material = Material { density: 1.0, friction, ..material(1.0) };
-        let packing = Packing { spheres: 500, seed, diameter: 1.0, material, pressure: 1e-6, steps: 400_000 };
+        let packing = Packing {
+            spheres: 500,
+            seed,
+            diameter: 1.0,
+            sizes: None,
+            material,
+            pressure: 1e-6,
+            steps: 400_000,
+        };
         let packed = pack(&packing).unwrap();
         let phi = packed.averages.solid_fraction;
         for ratio in [2.0, 5.0, 10.0, 20.0] {

@@ -1,5 +1,6 @@
 //! Packings: at rest under the pressure that was asked for, the same for the same seed.
 
+use msdd_beds::sizes::{Sizes, sauter};
 use msdd_beds::{Packing, pack};
 use msdd_spheres::space::length;
 use msdd_spheres::{Material, Simulation, Stiffness};
@@ -9,6 +10,7 @@ fn packing(friction: f64) -> Packing {
         spheres: 250,
         seed: 4,
         diameter: 2e-3,
+        sizes: None,
         material: Material {
             density: 2500.0,
             stiffness: Stiffness::HertzMindlin { young_modulus: 1e9, poisson_ratio: 0.25 },
@@ -44,6 +46,24 @@ fn a_packing_is_at_rest_under_its_pressure() {
     assert!(imbalance < 1e-2, "{imbalance}");
     let again = pack(&packing(0.3)).unwrap();
     assert_eq!(again.simulation.state(), packed.simulation.state());
+}
+
+/// The spheres are those of the distribution, at rest under the pressure; a box too small for the largest ones is refused.
+#[test]
+fn a_packing_of_unequal_spheres_has_its_sizes() {
+    let sizes = Sizes::Uniform([0.5, 1.5]);
+    let unequal = Packing { sizes: Some(sizes.clone()), ..packing(0.3) };
+    let packed = pack(&unequal).unwrap();
+    assert!(packed.settled && (packed.averages.pressure() / 1e4 - 1.0).abs() < 1e-4, "{:?}", packed.averages);
+    let mut found: Vec<f64> = packed.simulation.spheres.iter().map(|sphere| 2.0 * sphere.radius).collect();
+    found.sort_unstable_by(|a, b| b.total_cmp(a));
+    let wanted = sizes.diameters(250).into_iter().map(|d| 2e-3 * d);
+    assert!(found.iter().zip(wanted).all(|(a, b)| (a / b - 1.0).abs() < 1e-12));
+    assert!((sauter(&found) / 2e-3 - 1.0).abs() < 1e-12);
+    assert!(imbalance(&packed.simulation) < 1e-2);
+    let mixture = Sizes::Sieve(vec![[1.0, 0.0], [1.0, 0.5], [4.0, 0.5], [4.0, 1.0]]);
+    let small = pack(&Packing { spheres: 60, sizes: Some(mixture), ..packing(0.3) }).unwrap_err();
+    assert!(small.to_string().contains("edge over the largest diameter"), "{small}");
 }
 
 /// Without friction a packing needs six contacts per sphere to be rigid, and a stressed one has little more (Moukarzel,

@@ -5,6 +5,7 @@ use msdd_beds::BedError;
 use msdd_beds::pour::{Container, Pouring, pour};
 use msdd_beds::press::press;
 use msdd_beds::settle::{Rest, settle, turn};
+use msdd_beds::sizes::Sizes;
 use msdd_spheres::{Boundary, Material, Simulation, Sphere, Stiffness};
 
 const G: f64 = 9.81;
@@ -14,6 +15,7 @@ fn pouring(container: Container, spheres: usize) -> Pouring {
         spheres,
         seed: 3,
         diameter: 4e-3,
+        sizes: None,
         material: Material {
             density: 2500.0,
             stiffness: Stiffness::HertzMindlin { young_modulus: 2e7, poisson_ratio: 0.25 },
@@ -50,6 +52,20 @@ fn a_box_bears_the_weight_of_its_grains() {
     assert_eq!(simulation.spheres.len(), 250);
     let inside = |p: [f64; 3]| (0.0..0.03).contains(&p[0]) && (0.0..0.04).contains(&p[1]) && p[2] > 0.0;
     assert!(simulation.spheres.iter().all(|sphere| inside(sphere.position)));
+}
+
+#[test]
+fn unequal_grains_come_to_rest_and_weigh_what_their_sizes_say() {
+    let sizes = Sizes::LogNormal(0.3);
+    let mut bed = pouring(Container::Box { base: [0.03, 0.04] }, 250);
+    bed.sizes = Some(sizes.clone());
+    let (simulation, rest) = pour(&bed, |_| ()).unwrap();
+    check_balance(&simulation, &rest, 2);
+    let volume: f64 =
+        sizes.diameters(250).iter().map(|d| std::f64::consts::PI / 6.0 * (4e-3 * d).powi(3)).sum();
+    assert!((weight(&simulation) / (G * 2500.0 * volume) - 1.0).abs() < 1e-12);
+    bed.threads = 2;
+    assert_eq!(pour(&bed, |_| ()).unwrap().0.state(), simulation.state());
 }
 
 /// Janssen's experiment: the floor of a tall cylinder sinks a little, so that the grains slide down along the side, whose

@@ -140,6 +140,7 @@ fn packing() -> (Simulation, f64) {
         spheres: 200,
         seed: 1,
         diameter: 1.0,
+        sizes: None,
         material: material(),
         pressure: 1e-5,
         steps: 400_000,

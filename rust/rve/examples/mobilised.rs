@@ -24,6 +24,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         {
             let prepared = prepare(&Preparation {
                 spheres: 1000,
+                sizes: None,
                 seed: seed as u64,
                 poisson_ratio: 0.25,
                 restitution: 0.3,

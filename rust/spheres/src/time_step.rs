@@ -19,9 +19,10 @@ const MIN_OVERLAP: f64 = 1e-6;
 /// [m/s²] adds to it until the bound is looked at again.
 pub(crate) fn stable_step(touching: &Touching, speed: f64, gravity: f64) -> f64 {
     let present = present_stiffness(touching);
+    let heaviest = heaviest(touching);
     let bound = |speed: f64| {
         let ratio = |(sphere, sum): (&Sphere, &f64)| {
-            sum.max(collision_stiffness(&touching.law, sphere, speed)) / sphere.mass
+            sum.max(collision_stiffness(&touching.law, sphere, heaviest, speed)) / sphere.mass
         };
         2.0 / touching.spheres.iter().zip(&present).map(ratio).fold(0.0, f64::max).sqrt()
     };
@@ -31,8 +32,11 @@ pub(crate) fn stable_step(touching: &Touching, speed: f64, gravity: f64) -> f64 
 
 /// Σ_c (2 k_n + 5 k_t) [N/m] over the contacts of each sphere; at least that of [`FEWEST_CONTACTS`] contacts in a collision.
 pub(crate) fn contact_stiffness(touching: &Touching, speed: f64) -> Vec<f64> {
-    let present = present_stiffness(touching).into_iter().zip(touching.spheres);
-    present.map(|(sum, sphere)| sum.max(collision_stiffness(&touching.law, sphere, speed))).collect()
+    let (present, heaviest) = (present_stiffness(touching), heaviest(touching));
+    let present = present.into_iter().zip(touching.spheres);
+    present
+        .map(|(sum, sphere)| sum.max(collision_stiffness(&touching.law, sphere, heaviest, speed)))
+        .collect()
 }
 
 /// 2 k_n + 5 k_t of a contact over its size.
@@ -55,12 +59,20 @@ fn present_stiffness(touching: &Touching) -> Vec<f64> {
     stiffness
 }
 
-/// The sum over [`FEWEST_CONTACTS`] contacts in a collision of two such spheres at twice the speed.
-fn collision_stiffness(law: &ContactLaw, sphere: &Sphere, speed: f64) -> f64 {
-    let effective_radius = 0.5 * sphere.radius;
+/// Largest mass \[kg\].
+fn heaviest(touching: &Touching) -> f64 {
+    touching.spheres.iter().fold(0.0, |heaviest, sphere| sphere.mass.max(heaviest))
+}
+
+/// The sum over [`FEWEST_CONTACTS`] contacts in a collision with the heaviest sphere at twice the speed. The ratio of the radii is taken from the
+/// masses, which do not change with temperature; it is exact for equal spheres.
+fn collision_stiffness(law: &ContactLaw, sphere: &Sphere, heaviest: f64, speed: f64) -> f64 {
+    let lighter = sphere.mass / heaviest;
+    let smaller = if lighter == 1.0 { 1.0 } else { libm::cbrt(lighter) };
+    let effective_radius = sphere.radius / (1.0 + smaller);
     // Largest overlap, by the energy of the elastic law: 2/5 k δ^(5/2) = m* v²/2 with k = 4/3 E* √R*.
     let overlap = if law.hertz {
-        let energy = 0.25 * sphere.mass * 4.0 * speed * speed;
+        let energy = 0.5 * (sphere.mass / (1.0 + lighter)) * 4.0 * speed * speed;
         let spring = 0.4 * law.normal * effective_radius.sqrt();
         libm::pow(energy / spring, 0.4).max(MIN_OVERLAP * sphere.radius)
     } else {

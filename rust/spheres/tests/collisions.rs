@@ -2,8 +2,9 @@
 
 mod common;
 
-use common::{RADIUS, fixed_step, free, glass, hertz, over_floor};
-use msdd_spheres::law::damping_ratio;
+use common::{POISSON, RADIUS, YOUNG, fixed_step, free, glass, hertz, over_floor};
+use msdd_spheres::law::{damping_ratio, effective_modulus, effective_shear_modulus};
+use msdd_spheres::space::{length, minus};
 use msdd_spheres::{Boundary, Material, Simulation, Sphere, Stiffness};
 
 /// Two spheres that touch and approach each other at `speed`.
@@ -17,7 +18,11 @@ fn head_on(material: &Material, speed: f64) -> Simulation {
 /// Largest overlap, duration and final relative speed of a collision in steps of `step` [s].
 fn collide(simulation: &mut Simulation, step: f64) -> [f64; 3] {
     fixed_step(simulation, step);
-    let gap = |s: &Simulation| s.spheres[1].position[0] - s.spheres[0].position[0] - 2.0 * RADIUS;
+    let reach: f64 = simulation.spheres.iter().map(|sphere| sphere.radius).sum();
+    let gap = |s: &Simulation| {
+        let [a, b] = [0, 1].map(|k| s.spheres[k].position);
+        length(minus(b, a)) - reach
+    };
     let mut deepest = 0.0f64;
     loop {
         simulation.step();
@@ -42,6 +47,45 @@ fn hertz_collision_without_damping() {
         assert!((found[0] / deepest - 1.0).abs() < 1e-5, "{found:?} {deepest}");
         assert!((found[1] / duration - 1.0).abs() < 1e-4, "{found:?} {duration}");
         assert!((found[2] / speed - 1.0).abs() < 1e-5, "{found:?}");
+    }
+}
+
+/// Spheres of 1:3: Hertz with m* = m₁m₂/(m₁ + m₂) and R* = r₁r₂/(r₁ + r₂), and momentum is kept. A sphere that slides on a larger one gets
+/// the same impulse J on its surface, so Δω = 5/2 J/(m r) of each.
+#[test]
+fn unequal_spheres_collide_as_their_effective_mass_and_radius() {
+    let speed = 0.1;
+    let pair = |friction: f64, across: f64| {
+        let material = Material { friction, ..glass() };
+        let radii = [RADIUS, 3.0 * RADIUS];
+        let mut a = Sphere::at_rest([-radii[0], 0.0, 0.0], radii[0], material.density);
+        let b = Sphere::at_rest([radii[1], 0.0, 0.0], radii[1], material.density);
+        a.velocity = [speed, across, 0.0];
+        free(material, vec![a, b])
+    };
+    let mut simulation = pair(0.0, 0.0);
+    let [small, large] = [0, 1].map(|k| simulation.spheres[k].mass);
+    let mass = small * large / (small + large);
+    let [deepest, duration] = hertz(mass, 0.75 * RADIUS, speed);
+    // The bound on the step counts on a collision of this pair at twice the speed.
+    let faster = hertz(mass, 0.75 * RADIUS, 2.0 * speed)[0];
+    let (modulus, shear) = (effective_modulus(YOUNG, POISSON), effective_shear_modulus(YOUNG, POISSON));
+    let stiffness = (4.0 * modulus + 40.0 * shear) * (0.75 * RADIUS * faster).sqrt();
+    let bound = 2.0 / (4.0 * stiffness / small).sqrt();
+    assert!((simulation.stable_step() / bound - 1.0).abs() < 1e-9, "{bound}");
+    let found = collide(&mut simulation, duration / 2000.0);
+    assert!((found[0] / deepest - 1.0).abs() < 1e-5, "{found:?} {deepest}");
+    assert!((found[1] / duration - 1.0).abs() < 1e-4, "{found:?} {duration}");
+    assert!((simulation.momentum()[0] / (small * speed) - 1.0).abs() < 1e-12);
+
+    let friction = 0.05;
+    let mut sliding = pair(friction, speed);
+    collide(&mut sliding, duration / 2000.0);
+    let impulse = friction * 2.0 * mass * speed;
+    for (sphere, mass) in sliding.spheres.iter().zip([small, large]) {
+        let turned = sphere.angular_velocity[2] * mass * sphere.radius / (2.5 * impulse);
+        // Overlaps shorten the lever arms by 1e-4 of the radius.
+        assert!((turned.abs() - 1.0).abs() < 1e-3, "{turned}");
     }
 }
 

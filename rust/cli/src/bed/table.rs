@@ -25,6 +25,9 @@ fn packing(out: &mut String, results: &Results) {
         results.case.seed,
         bed.plate_force() / bed.area(&results.case)
     );
+    if results.case.grains.sizes.is_some() {
+        let _ = writeln!(out, "{}", results.case.grains.moments());
+    }
     let radiates = bed.exchange.is_some();
     let more = if radiates { " + radiation" } else { "" };
     let _ = writeln!(

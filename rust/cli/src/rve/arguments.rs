@@ -3,6 +3,7 @@
 use crate::error::CliError;
 use crate::simd::SimdArgument;
 use clap::{Args, ValueEnum};
+use msdd_beds::sizes::Sizes;
 use std::path::PathBuf;
 
 #[derive(Args)]
@@ -186,10 +187,15 @@ pub enum RelaxationName {
 /// What only spheres have.
 #[derive(Args)]
 pub struct OfSpheres {
-    /// Number of spheres, instead of discs: equal ones in a periodic box. Lengths are in diameters, stresses over E* = E/(2
-    /// (1 - ν²)). Allowed: 50 to 1000000.
+    /// Number of spheres, instead of discs, in a periodic box. Lengths are in diameters, stresses over E* = E/(2 (1 - ν²)).
+    /// Allowed: 50 to 1000000.
     #[arg(long, conflicts_with_all = ["discs", "porosity", "boundary", "radius_min", "radius_max", "relaxation"])]
     pub spheres: Option<usize>,
+    /// Distribution of the diameters, which are over their Sauter mean, in the form of `sizes` of a bed.toml:
+    /// 'uniform = [0.8, 1.2]', 'normal = 0.2', 'log_normal = 0.2', 'sieve = [[1, 0], [1, 0.3], [2, 0.3], [2, 1]]'. Default:
+    /// equal spheres.
+    #[arg(long, requires = "spheres")]
+    pub sizes: Option<Sizes>,
     /// Pressure over E* to pack spheres to. Allowed: 1e-8 to 1e-3.
     #[arg(long, default_value = "1e-6", requires = "spheres")]
     pub pressure: f64,

@@ -3,6 +3,7 @@
 use super::arguments::{CompressionName, ExpandArguments, PackArguments, RelaxationName, strains};
 use crate::error::CliError;
 use crate::output::print_json;
+use msdd_beds::sizes::Moments;
 use msdd_beds::vtk;
 use msdd_files::{check_target, write};
 use msdd_rve::database::spheres::SphereCompression;
@@ -29,6 +30,7 @@ pub fn pack(arguments: &PackArguments, count: usize) -> Result<(), CliError> {
     let preparation = Preparation {
         spheres: count,
         seed: arguments.seed,
+        sizes: of.sizes.clone(),
         poisson_ratio: of.poisson_ratio,
         restitution: of.restitution,
         packing_friction: of.packing_friction.unwrap_or(of.friction),
@@ -41,6 +43,9 @@ pub fn pack(arguments: &PackArguments, count: usize) -> Result<(), CliError> {
     write_state(&arguments.out, &prepared.simulation)?;
     series(arguments.vtk.as_deref(), 0, &prepared.simulation)?;
     let averages = averaged(&prepared.simulation)?;
+    if let Some(sizes) = &of.sizes {
+        outln!("{}", Moments::new(Some(sizes), count));
+    }
     report("packed", &prepared.rest, &averages);
     let (asked, reached) = (arguments.of_spheres.pressure, averages.pressure());
     if !(NEAR[0]..=NEAR[1]).contains(&(reached / asked)) {

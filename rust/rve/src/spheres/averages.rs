@@ -3,7 +3,7 @@
 use super::strain::{PLACES, Tensor};
 use msdd_beds::conductances::{Link, contact_links, near_pairs};
 use msdd_beds::conductivity::{conductivity, mean};
-use msdd_beds::gas::gas_conductance;
+use msdd_beds::gas::unequal_conductance;
 use msdd_beds::solid::Solid;
 use msdd_spheres::{Cell, Simulation};
 
@@ -49,6 +49,10 @@ pub fn averages(simulation: &Simulation) -> Option<Averages> {
     let solid = Solid { conductivity: 1.0, effective_modulus: 1.0, roughness: None };
     let contacts = conductivity(&contact_links(simulation, &solid), count, volume)?.network;
     let near = near_pairs(simulation);
+    // One gas for all pairs: h is that of the mean radius where spheres are unequal.
+    let masses = simulation.spheres.iter().map(|sphere| sphere.mass);
+    let [light, heavy] = masses.fold([f64::INFINITY, 0.0], |[low, high], m| [m.min(low), m.max(high)]);
+    let common = (light < heavy).then(|| simulation.mean_radius());
     let mut gas_conductivity = [0.0; 3];
     for (value, number) in gas_conductivity.iter_mut().zip(GAS_NUMBERS) {
         let distance = libm::exp(-number);
@@ -56,7 +60,12 @@ pub fn averages(simulation: &Simulation) -> Option<Averages> {
             i: pair.i,
             j: pair.j,
             branch: pair.branch,
-            conductance: gas_conductance(1.0, pair.radius, pair.gap + distance * pair.radius),
+            conductance: unequal_conductance(
+                1.0,
+                pair.radius,
+                pair.smaller,
+                pair.gap + distance * common.unwrap_or(pair.radius),
+            ),
         };
         let links: Vec<Link> = near.iter().map(link).collect();
         *value = mean(&conductivity(&links, count, volume)?.network);

@@ -27,7 +27,7 @@ pub use turn::turned;
 
 use msdd_spheres::{Material, Stiffness};
 
-/// Equal spheres of density 1 with E* = 1.
+/// Spheres of density 1 with E* = 1.
 pub fn material(poisson_ratio: f64, friction: f64, restitution: f64) -> Material {
     let young_modulus = 2.0 * (1.0 - poisson_ratio * poisson_ratio);
     Material {

@@ -5,6 +5,7 @@ use super::material;
 use super::strain::Strain;
 use crate::message::number;
 use crate::stopwatch::{self, Stage};
+use msdd_beds::sizes::Sizes;
 use msdd_beds::{BedError, Packing, pack_along, shake};
 use msdd_spheres::{Failure, Simulation};
 
@@ -36,6 +37,8 @@ pub const MAX_FRICTION: f64 = 2.0;
 pub struct Preparation {
     pub spheres: usize,
     pub seed: u64,
+    /// Of the diameters, whose Sauter mean is 1; none: equal spheres.
+    pub sizes: Option<Sizes>,
     pub poisson_ratio: f64,
     pub restitution: f64,
     /// μ while the box closes, and afterwards.
@@ -112,6 +115,7 @@ pub fn prepare(preparation: &Preparation) -> Result<Prepared, PrepareError> {
         spheres,
         seed,
         diameter: 1.0,
+        sizes: preparation.sizes.clone(),
         material: material(poisson_ratio, preparation.packing_friction, restitution),
         pressure: preparation.pressure.max(MIN_PACKING_PRESSURE),
         steps: PACKING_STEPS,

@@ -9,6 +9,7 @@ use msdd_beds::dem_case::{DemCase, Heated, LidKeys, RecordKeys, Shell, Time};
 use msdd_beds::named_gases::GasName;
 use msdd_beds::property::Property;
 use msdd_beds::schedule::Schedule;
+use msdd_beds::sizes::{Moments, Sizes};
 use msdd_case::case::{optional, points};
 use msdd_case::dictionary::{Dictionary, Entry, joined};
 use msdd_case::numbers::{plain, rounded};
@@ -28,6 +29,8 @@ const MARGIN: f64 = 2.0;
 /// Without gravity in the case, the most that the weight of the bed adds to the stress at its bottom, over the pressure of the lid.
 const LIGHT: f64 = 0.05;
 const GRAVITY: f64 = 9.81;
+/// Spheres of which moments are taken while their number is not known.
+const MANY: usize = 1000;
 /// Keys of the properties that have no part in DEM, or are read here.
 const KNOWN: [&str; 12] = [
     "FoamFile",
@@ -62,6 +65,10 @@ impl<'a> Reader<'a> {
         let properties = file("constant/granularProperties")?;
         let surrogate = properties.dictionary_at("surrogate")?;
         let kind = surrogate.text("type")?;
+        let flow = properties.text("flow").unwrap_or_else(|_| "none".to_string());
+        if flow != "none" {
+            return Err(properties.refuse("flow", &flow, "none: the gas of DEM is at rest").into());
+        }
         if kind != "spheres" {
             return Err(surrogate.refuse("type", &kind, "spheres: of discs use 'msdd reference run'").into());
         }
@@ -105,10 +112,15 @@ impl<'a> Reader<'a> {
             ..shell
         });
         let record = self.record(&grains, &extent, &heated)?;
+        let heat_source = self.heat_source(porosity)?;
         self.left_out()?;
+        if grains.sizes.is_some() {
+            let note = "sizes: the case has sizeSpread alone; uniform diameters of that standard deviation are taken";
+            self.notes.push(note.to_string());
+        }
         Ok(DemCase {
             seed: 1,
-            heat_source: None,
+            heat_source,
             grains,
             container,
             lid,
@@ -147,6 +159,12 @@ impl<'a> Reader<'a> {
         Ok(field.mean("internalField")?)
     }
 
+    /// A distribution with this standard deviation over the mean; none of equal spheres.
+    fn sizes(spread: f64) -> Option<Sizes> {
+        let width = rounded(3f64.sqrt() * spread, DIGITS);
+        (spread > 0.0).then(|| Sizes::Uniform([rounded(1.0 - width, DIGITS), rounded(1.0 + width, DIGITS)]))
+    }
+
     /// All but the number of the spheres and the friction of the walls.
     fn grains(&self) -> Result<Grains, CliError> {
         let (of, spheres) = (&self.properties, self.spheres()?);
@@ -182,6 +200,7 @@ impl<'a> Reader<'a> {
             yield_stress: None,
             emissivity: emissivity.filter(|given| *given != Property::Constant(0.0)),
             rays: None,
+            sizes: Self::sizes(Self::number(spheres, "sizeSpread", 0.0)?),
             thermal_expansion: (expansion > 0.0).then_some(expansion),
         })
     }
@@ -246,7 +265,7 @@ impl<'a> Reader<'a> {
 
     /// Container without its gravity; the spheres fill it.
     fn container(&mut self, grains: &mut Grains, porosity: f64, extent: &Extent) -> Result<Vessel, CliError> {
-        let volume = PI / 6.0 * grains.diameter.powi(3);
+        let volume = PI / 6.0 * grains.diameter.powi(3) * Moments::new(grains.sizes.as_ref(), MANY).volume;
         let [[x0, x1], [y0, y1]] = self.mesh.sides;
         let area = extent.radius.map_or((x1 - x0) * (y1 - y0), |radius| PI * radius * radius);
         let filling = (area * extent.depth * (1.0 - porosity) / volume).round();
@@ -269,6 +288,24 @@ impl<'a> Reader<'a> {
             endless: self.mesh.is_endless,
             gravity: GRAVITY,
         })
+    }
+
+    /// The heat of a constant source in the whole bed, over the volume of the spheres [W/m³]; other sources are noted.
+    fn heat_source(&mut self, porosity: f64) -> Result<Option<f64>, CliError> {
+        let mut heat = None;
+        for name in ["constant/fvOptions", "system/fvOptions"] {
+            let Some(sources) = optional(self.folder, name)? else { continue };
+            for key in sources.keys().filter(|key| key.text != "FoamFile") {
+                match sources.dictionary_at(&key.text).ok().and_then(constant_source) {
+                    Some(source) if source >= 0.0 => *heat.get_or_insert(0.0) += source,
+                    _ => self.notes.push(format!(
+                        "{name}: {} is left out; possible: a constant scalarSemiImplicitSource of T, specific, in all cells, of 0 or more",
+                        key.text
+                    )),
+                }
+            }
+        }
+        Ok(heat.map(|heat| rounded(heat / (1.0 - porosity), DIGITS)))
     }
 
     /// Gravity of the case downwards [m/s²].
@@ -382,13 +419,6 @@ impl<'a> Reader<'a> {
 
     /// Notes what DEM does not have.
     fn left_out(&mut self) -> Result<(), CliError> {
-        for name in ["constant/fvOptions", "system/fvOptions"] {
-            let Some(sources) = optional(self.folder, name)? else { continue };
-            for key in sources.keys().filter(|key| key.text != "FoamFile") {
-                let note = format!("{name}: {} is left out: dem.toml has no heat from inside", key.text);
-                self.notes.push(note);
-            }
-        }
         if self.properties.text("mechanics").is_ok_and(|mechanics| mechanics == "none") {
             self.notes.push("mechanics none: the spheres of DEM move all the same".to_string());
         }
@@ -396,6 +426,21 @@ impl<'a> Reader<'a> {
         let others = others.map(|key| format!("constant/granularProperties: {} is left out", key.text));
         self.notes.extend(others.collect::<Vec<_>>());
         Ok(())
+    }
+}
+
+/// The heat of a source that is constant in the whole volume [W/m³].
+fn constant_source(source: &Dictionary) -> Option<f64> {
+    let is = |key: &str, value: &str| source.text(key).is_ok_and(|text| text == value);
+    let whole =
+        is("type", "scalarSemiImplicitSource") && is("selectionMode", "all") && is("volumeMode", "specific");
+    let off = source.text("active").is_ok_and(|on| ["no", "off", "false"].contains(&on.as_str()));
+    let rates = source.dictionary_at("injectionRateSuSp").ok()?;
+    let numbers: Vec<f64> =
+        rates.value("T").ok()?.iter().filter_map(|token| token.text.parse().ok()).collect();
+    match numbers.as_slice() {
+        &[constant, slope] if whole && !off && slope == 0.0 => Some(constant),
+        _ => None,
     }
 }
 

@@ -6,6 +6,7 @@ use crate::database::DatabaseError;
 use crate::database::seed::packing_seed;
 use crate::spheres::Preparation;
 use crate::spheres::prepare::{MAX_FRICTION, PACKED_PRESSURES, SHAKING, SPHERES};
+use msdd_beds::sizes::Sizes;
 use serde::{Deserialize, Serialize};
 
 /// Sizes that increments and whole paths may have \[-\].
@@ -46,6 +47,10 @@ pub struct SpherePlan {
 pub struct SphereBlock {
     /// Spheres in a packing. Allowed: `SPHERES`.
     pub spheres: usize,
+    /// Distribution of the diameters: `uniform`, `normal`, `log_normal` or `sieve`, as `sizes` of `bed.toml`. Lengths are over their
+    /// Sauter mean. The law is not trained on unequal spheres. Default: equal spheres.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub sizes: Option<Sizes>,
     /// Frictions while the box closes: 0 packs densest (0.63 to 0.64 of the space), 0.3 looser (0.58). Not above `friction`: a
     /// packing whose friction falls collapses. Allowed: 0 to `friction`. Default: `friction` alone.
     #[serde(default)]
@@ -204,6 +209,7 @@ impl SpherePlan {
             preparation: Preparation {
                 spheres: block.spheres,
                 seed,
+                sizes: block.sizes.clone(),
                 poisson_ratio: self.poisson_ratio,
                 restitution: self.restitution,
                 packing_friction,
@@ -237,6 +243,9 @@ impl SphereBlock {
         let [least, most] = SPHERES;
         if !(least..=most).contains(&self.spheres) {
             return Err(format!("spheres: {}, allowed: {least} to {most}", self.spheres));
+        }
+        if let Some(Err(problem)) = self.sizes.as_ref().map(Sizes::check) {
+            return Err(format!("sizes: {problem}"));
         }
         if self.compressions.is_empty() || self.pressures.is_empty() || self.repeats == 0 {
             return Err("compressions, pressures and repeats: at least one of each is needed".into());
@@ -306,6 +315,11 @@ mod tests {
     fn what_is_not_allowed_is_refused_by_file_key_value_and_range() {
         let cases = [
             ("spheres = 100", "spheres = 10", "spheres: 10, allowed: 50 to 1000000"),
+            (
+                "repeats = ",
+                "sizes = { uniform = [1.0, 5.0] }\nrepeats = ",
+                "sizes: diameters from 1 to 5, allowed: up to 1:4",
+            ),
             ("repeats = ", "shaking = 0.2\nrepeats = ", "shaking: 0.2, allowed: 0, or 0.002 to 0.1"),
             ("[0.0, 0.3]", "[0.4]", "packing_frictions: 0.4, allowed: 0 to the friction of the plan, 0.3"),
             ("[1e-6, 1e-4]", "[1e-9]", "pressures: 1e-9, allowed: 1e-8 to 1e-3"),
