@@ -94,6 +94,13 @@ const keyTable granularModels::spheres::keys
             "-", "on, off", "on"
         },
         {
+            "sizeSpread",
+            "standard deviation of the diameters over their mean, both weighted"
+            " by surface; `meanRadius` is half the mean. The model is then"
+            " [that of equal spheres](../theory/spheres-law.md#unequal-spheres)"
+            " of a lower solid fraction", "-", "0 to 0.25", "0"
+        },
+        {
             "coordination",
             "contacts per sphere at the start, all spheres counted. A field"
             " `coordination` replaces it", "-", "0 to 12",
@@ -275,6 +282,7 @@ msdd_sphere_material Foam::granularModels::spheres::material() const
     result.young_modulus = properties_.youngModulus().value();
     result.conductivity = properties_.thermalConductivity().value();
     result.poisson_ratio = keys.number(coeffs_, "poissonRatio");
+    result.size_spread = keys.number(coeffs_, "sizeSpread");
     result.roughness = keys.number(coeffs_, "roughness");
     if (result.roughness > 0)
     {

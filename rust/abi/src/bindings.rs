@@ -207,12 +207,13 @@ pub struct msdd_sphere_material {
     pub gas_pressure: f64,
     pub accommodation: f64,
     pub emissivity: f64,
+    pub size_spread: f64,
 }
 #[allow(clippy::unnecessary_operation, clippy::identity_op)]
 const _: () = {
     [
         "Size of msdd_sphere_material",
-    ][::core::mem::size_of::<msdd_sphere_material>() - 88usize];
+    ][::core::mem::size_of::<msdd_sphere_material>() - 96usize];
     [
         "Alignment of msdd_sphere_material",
     ][::core::mem::align_of::<msdd_sphere_material>() - 8usize];
@@ -249,6 +250,9 @@ const _: () = {
     [
         "Offset of field: msdd_sphere_material::emissivity",
     ][::core::mem::offset_of!(msdd_sphere_material, emissivity) - 80usize];
+    [
+        "Offset of field: msdd_sphere_material::size_spread",
+    ][::core::mem::offset_of!(msdd_sphere_material, size_spread) - 88usize];
 };
 #[repr(C)]
 #[derive(Debug, Copy, Clone)]

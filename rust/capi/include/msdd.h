@@ -191,14 +191,14 @@ void msdd_surrogate_free(msdd_surrogate *surrogate);
 
 /* ------------------------------------------------------------------------------------------------- law of spheres */
 
-/** The law of packings of spheres, in three dimensions: opaque, immutable. It holds for equal spheres of any size and material
- *  with a friction of about 0.3. */
+/** The law of packings of spheres, in three dimensions: opaque, immutable. It holds for spheres of any size and material with a
+ *  friction of about 0.3, whose diameters are equal or differ a little (size_spread of msdd_sphere_material). */
 typedef struct msdd_spheres msdd_spheres;
 
-/** Equal spheres and the gas between them. */
+/** Spheres and the gas between them. */
 typedef struct msdd_sphere_material {
     size_t struct_size;   /**< sizeof(msdd_sphere_material) */
-    double diameter;      /**< [m], 1e-9 to 1e3 */
+    double diameter;      /**< of unequal spheres the Sauter mean, sum d^3/sum d^2 [m], 1e-9 to 1e3 */
     double young_modulus; /**< [Pa], 1e-9 to 1e15 */
     double poisson_ratio; /**< -0.99 to 0.5 */
     double conductivity;  /**< of the spheres, k_s [W/(m K)], 1e-12 to 1e12 */
@@ -208,6 +208,7 @@ typedef struct msdd_sphere_material {
     double gas_pressure;  /**< [Pa], 1e-3 to 1e9; not used in a vacuum */
     double accommodation; /**< of the gas at the spheres, 0.01 to 1; not used in a vacuum */
     double emissivity;    /**< of the spheres, opaque, grey and diffuse, 0 to 1; 0: without radiation */
+    double size_spread;   /**< standard deviation of the diameters over their mean, both weighted by surface, 0 to 0.25; 0: equal spheres */
 } msdd_sphere_material;
 
 /** Inputs and outputs of one step of a batch of cells. Six columns of a tensor are xx, yy, zz, xy, xz, yz; of a strain the last

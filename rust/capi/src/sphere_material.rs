@@ -9,6 +9,7 @@ use msdd_beds::effective::{BedMaterial, BedState, MIN_NUMBER, MIN_RATIO};
 use msdd_beds::gas::Gas;
 use msdd_beds::named_gases::GasName;
 use msdd_beds::radiation::{Dark, black, part};
+use msdd_beds::sizes::{MAX_SPREAD, equal_density, gas_factor};
 use msdd_beds::solid::{Roughness, Solid};
 use msdd_beds::wall::Radiating;
 use std::ffi::CStr;
@@ -19,6 +20,9 @@ pub(crate) struct Material {
     bed: BedMaterial,
     /// ε, 0: without radiation.
     emissivity: f64,
+    /// φ of equal spheres that are like these, over φ, and what the gas conducts over that between those.
+    density: f64,
+    more_gas: f64,
 }
 
 /// The gas at a temperature.
@@ -100,9 +104,11 @@ impl Material {
         }
         let emissivity =
             ranged("material.emissivity", given.emissivity, [0.0, 1.0], "0 to 1; 0: without radiation")?;
+        let allowed = format!("0 to {MAX_SPREAD}");
+        let spread = ranged("material.size_spread", given.size_spread, [0.0, MAX_SPREAD], &allowed)?;
         let solid = Solid { conductivity, effective_modulus, roughness };
         let bed = BedMaterial { radius: 0.5 * diameter, solid, gas, gas_pressure, accommodation };
-        Ok(Self { bed, emissivity })
+        Ok(Self { bed, emissivity, density: equal_density(spread), more_gas: gas_factor(spread) })
     }
 
     /// k_s \[W/(m K)\].
@@ -119,6 +125,11 @@ impl Material {
     /// ε.
     pub fn emissivity(&self) -> f64 {
         self.emissivity
+    }
+
+    /// φ of equal spheres with the properties of these, over φ of these.
+    pub fn density(&self) -> f64 {
+        self.density
     }
 
     pub fn bed(&self) -> &BedMaterial {
@@ -161,13 +172,14 @@ impl Material {
     /// Conductivity of a bed for which the law answers this, as the cell of a block.
     pub fn conductivity(&self, answers: &Answers, cell: usize, gas: &GasThere) -> Conductivity {
         let [xx, yy, zz, ..] = &answers.stress;
+        let solid_fraction = answers.solid[cell] / self.density;
         let conduction = self.bed.conduction(
             gas.gas.as_ref(),
             &BedState {
                 pressure: (xx[cell] + yy[cell] + zz[cell]) / 3.0 * self.modulus(),
-                solid_fraction: answers.solid[cell],
+                solid_fraction,
                 coordination: answers.coordination[cell].max(MIN_CONTACTS),
-                gas: answers.gas[cell],
+                gas: answers.gas[cell] * self.more_gas,
             },
         );
         let solid = self.bed.solid.conductivity * conduction.contacts;
@@ -182,7 +194,7 @@ impl Material {
                 conductivity: (tensor[0] + tensor[1] + tensor[2]) / 3.0,
                 solid: self.bed.solid.conductivity,
                 gas: gas.gas.map_or(0.0, |gas| gas.conductivity),
-                solid_fraction: answers.solid[cell],
+                solid_fraction,
             };
             radiation = dark.radiation(black(gas.temperature, 2.0 * self.bed.radius), self.emissivity);
             tensor[..3].iter_mut().for_each(|along| *along += radiation);

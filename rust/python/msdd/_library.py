@@ -47,7 +47,7 @@ SphereMaterialStruct = _struct(
     "msdd_sphere_material",
     *_each(c.c_double, "diameter young_modulus poisson_ratio conductivity roughness hardness"),
     ("gas", c.c_char_p),
-    *_each(c.c_double, "gas_pressure accommodation emissivity"),
+    *_each(c.c_double, "gas_pressure accommodation emissivity size_spread"),
 )
 SphereWallStruct = _struct(
     "msdd_sphere_wall",

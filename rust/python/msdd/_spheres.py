@@ -21,10 +21,10 @@ COMPONENTS = ("xx", "yy", "zz", "xy", "xz", "yz")
 
 @dataclass(frozen=True)
 class SphereMaterial:
-    """Equal spheres and the gas between them."""
+    """Spheres and the gas between them."""
 
     diameter: float
-    """of all spheres [m], 1e-9 to 1e3"""
+    """of unequal spheres the Sauter mean, sum d^3/sum d^2 [m], 1e-9 to 1e3"""
     young_modulus: float
     """E of the spheres [Pa], 1e-9 to 1e15"""
     poisson_ratio: float
@@ -43,6 +43,8 @@ class SphereMaterial:
     """accommodation coefficient of the gas at the spheres, 0.01 to 1; not used in a vacuum"""
     emissivity: float = 0.0
     """of the spheres, opaque, grey and diffuse, 0 to 1; 0: without radiation"""
+    size_spread: float = 0.0
+    """standard deviation of the diameters over their mean, both weighted by surface, 0 to 0.25; 0: equal spheres"""
 
     def _struct(self) -> c.Structure:
         return SphereMaterialStruct(
@@ -50,7 +52,7 @@ class SphereMaterial:
             *map(float, (self.diameter, self.young_modulus, self.poisson_ratio, self.conductivity)),
             *map(float, (self.roughness, self.hardness)),
             encoded("gas", self.gas),
-            *map(float, (self.gas_pressure, self.accommodation, self.emissivity)),
+            *map(float, (self.gas_pressure, self.accommodation, self.emissivity, self.size_spread)),
         )
 
 

@@ -142,6 +142,8 @@ class Mistakes(WithLaw):
             self.law.advance(STEEL, self.state(), strain=[0.5, 0, 0, 0, 0, 0])
         with self.assertRaisesRegex(msdd.InvalidArgument, "neon.*air"):
             self.law.initial_state(msdd.SphereMaterial(6e-3, 2e11, 0.3, 40, gas="neon"), 0.6, 1e4)
+        with self.assertRaisesRegex(msdd.InvalidArgument, "size_spread = 0.5, allowed: 0 to 0.25"):
+            self.law.initial_state(msdd.SphereMaterial(6e-3, 2e11, 0.3, 40, size_spread=0.5), 0.6, 1e4)
         with self.assertRaisesRegex(msdd.InvalidArgument, "at least that of the gas"):
             foam = msdd.SphereMaterial(6e-3, 1e7, 0.2, 0.03, gas="helium")
             self.law.advance(foam, self.law.initial_state(foam, 0.6, 1e3))

@@ -147,6 +147,26 @@ contacts() {
     coefficient coordination 13
     check "refused: more contacts than spheres have" refused "Entry 'coordination' is 13"
 }
+# In a vacuum smooth unequal spheres are equal ones of the solid fraction 1 - 0.62 s^2 times theirs, with the same heat capacity of the bed.
+unequal() {
+    local worst
+    smooth() { # folder
+        steel "$1" > /dev/null
+        coefficient gas vacuum
+        coefficient roughness "0; $2"
+    }
+    smooth spheres-unequal 'sizeSpread 0.2'
+    logged msddFoam
+    smooth spheres-equal 'sizeSpread 0'
+    sed -i "s/uniform 0.413/uniform $(awk 'BEGIN { printf "%.15g", 1 - 0.587*(1 - 0.62*0.04) }')/" 0/porosity
+    sed -i "s#^density .*#density $(awk 'BEGIN { printf "%.15g", 7747/(1 - 0.62*0.04) }');#" constant/granularProperties
+    logged msddFoam
+    worst=$(apart 100/T ../spheres-unequal/100/T)
+    check "unequal spheres heat as equal ones of a lower solid fraction: apart by $worst <= 1e-5 K" below "$worst" 1e-5
+    steel spheres-unequal
+    coefficient roughness '3.4e-7; sizeSpread 0.5'
+    check "refused: spheres of too unequal size" refused "Entry 'sizeSpread' is 0.5"
+}
 pressed_with() { # mobilised friction: stress on the lid of the column when it turns
     column "column-mobilised-$1" > /dev/null
     coefficient mobilised "$1"
@@ -271,6 +291,7 @@ pressed_bed
 heated_store
 what_changes_it
 contacts
+unequal
 friction
 directions
 growth

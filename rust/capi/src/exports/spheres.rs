@@ -210,7 +210,7 @@ pub unsafe extern "C" fn msdd_spheres_initial_state(
                 mobilised: mobilised.map(|column| column.at(cell)),
                 fabric: fabric.as_ref().map(|columns| std::array::from_fn(|k| columns[k].at(cell))),
             };
-            let found = handle.model.initial_state(solid.at(cell), stress, &known);
+            let found = handle.model.initial_state(material.density() * solid.at(cell), stress, &known);
             state.iter().zip(found).for_each(|(column, value)| column.write_one(cell, value));
         }
         Ok(())
@@ -372,7 +372,7 @@ impl<'a> Columns<'a> {
                     column.write(first, &in_pascal(lanes));
                 }
             }
-            self.solid.write(first, &answers.solid);
+            self.solid.write(first, &answers.solid.map(|solid| solid / material.density()));
             for k in 0..here {
                 let (cell, gas) = (first + k, gases.get(k));
                 let of_gas = gas.is_some_and(|gas| gas.outside);

@@ -43,6 +43,7 @@ const STEEL: msdd_sphere_material = msdd_sphere_material {
     gas_pressure: 1.013e5,
     accommodation: 0.7,
     emissivity: 0.0,
+    size_spread: 0.0,
 };
 
 fn pointers(columns: &[Vec<f64>]) -> Vec<*const f64> {
@@ -56,6 +57,12 @@ fn writable(columns: &mut [Vec<f64>]) -> Vec<*mut f64> {
 /// States of packings under a growing pressure, with one that bears nothing.
 fn start(law: &Law, cells: usize) -> Vec<Vec<f64>> {
     let solid: Vec<f64> = (0..cells).map(|cell| 0.6 + 1e-3 * cell as f64).collect();
+    start_of(law, &STEEL, &solid)
+}
+
+/// The same with these solid fractions.
+fn start_of(law: &Law, material: &msdd_sphere_material, solid: &[f64]) -> Vec<Vec<f64>> {
+    let cells = solid.len();
     let column = |share: f64| (0..cells).map(|cell| share * 1e5 * cell as f64).collect::<Vec<f64>>();
     let stress = [1.0, 0.9, 1.2, 0.05, 0.0, -0.04].map(column);
     // SAFETY: live.
@@ -65,7 +72,7 @@ fn start(law: &Law, cells: usize) -> Vec<Vec<f64>> {
     let status = unsafe {
         msdd_spheres_initial_state(
             law.0,
-            &STEEL,
+            material,
             cells,
             solid.as_ptr(),
             stress.as_ptr(),
@@ -125,6 +132,35 @@ fn conductivity_of_the_spheres_can_differ_between_cells() {
     let usual = conducting(&STEEL, null());
     assert_eq!(mixed, [usual[0], conducting(&poorer, null())[1]]);
     assert!(mixed[1] < usual[1]);
+}
+
+/// Unequal spheres of φ are equal ones of φ (1 − 0.62 s²), and their own φ is answered; it changes with the volume alone.
+#[test]
+fn unequal_spheres_are_equal_ones_of_a_lower_solid_fraction() {
+    let law = Law::builtin();
+    let (spread, solid) = (0.25, [0.62, 0.61]);
+    let unequal = msdd_sphere_material { size_spread: spread, ..STEEL };
+    let state = start_of(&law, &unequal, &solid);
+    assert_eq!(state, start_of(&law, &STEEL, &solid.map(|solid| (1.0 - 0.62 * spread * spread) * solid)));
+    let (columns, small) = (pointers(&state), [-1e-3; 2]);
+    let zeros = [0.0; 2];
+    let strain =
+        [small.as_ptr(), zeros.as_ptr(), zeros.as_ptr(), zeros.as_ptr(), zeros.as_ptr(), zeros.as_ptr()];
+    for (given, volume) in [(null(), 1.0), (strain.as_ptr(), 1.0 - 1e-3)] {
+        let mut found = [0.0; 2];
+        let mut batch = msdd_sphere_batch {
+            cells: 2,
+            state: columns.as_ptr(),
+            strain: given,
+            solid_fraction: found.as_mut_ptr(),
+            ..NOTHING
+        };
+        // SAFETY: live, full struct, columns of two values.
+        assert_eq!(unsafe { msdd_spheres_advance(law.0, &unequal, &mut batch) }, MSDD_OK, "{}", last_error());
+        // The law takes the change of volume to second order of the strain.
+        let near = |(found, solid): (&f64, &f64)| (found * volume / solid - 1.0).abs() < 1e-6;
+        assert!(found.iter().zip(&solid).all(near), "{found:?} {volume}");
+    }
 }
 
 /// Radiation adds the same along all axes, what [`Dark`] says of the conductivity without it, and nothing at emissivity 0.
@@ -359,6 +395,10 @@ fn what_cannot_be_is_refused() {
     material(
         msdd_sphere_material { diameter: 0.0, ..STEEL },
         "material.diameter = 0, allowed: 1e-9 to 1e3 m",
+    );
+    material(
+        msdd_sphere_material { size_spread: 0.5, ..STEEL },
+        "material.size_spread = 0.5, allowed: 0 to 0.25",
     );
     material(msdd_sphere_material { gas: c"steam".as_ptr(), ..STEEL }, "material.gas = steam, allowed: air");
     material(msdd_sphere_material { gas_pressure: 0.0, ..STEEL }, "material.gas_pressure = 0");
