@@ -8,6 +8,7 @@ use crate::property::{Property, VALUES};
 use crate::rays::Enclosure;
 use crate::settle::longest;
 use crate::sizes::{Moments, Sizes};
+use crate::units::kelvin;
 use msdd_engine::message::{number, range};
 use msdd_files::{FileError, read_text};
 use msdd_spheres::{Material, Simulation, Stiffness};
@@ -85,9 +86,10 @@ pub struct Grains {
     /// Linear coefficient of thermal expansion, in `dem.toml` alone [1/K]. Allowed: `EXPANSIONS`. Default: spheres keep their
     /// size.
     pub thermal_expansion: Option<f64>,
-    /// Distribution of the diameters, scaled so that their Sauter mean is `diameter`; one of `uniform = [least, most]` (by number),
-    /// `normal = s`, `log_normal = s` (standard deviation over the mean by number, cut at two standard deviations), and
-    /// `sieve = [[opening, share of the mass that passes], ...]`. Allowed: up to 1:4. Default: equal spheres.
+    /// Distribution of the diameters, scaled so that their Sauter mean is `diameter`: `uniform` with the least and the largest one (by
+    /// number), `normal` or `log_normal` with the standard deviation over the mean (by number, cut at two standard deviations), or
+    /// `sieve` with rows of an opening and the share of the mass that passes it; two rows of one opening are spheres of that
+    /// diameter. As `sieve=[[1,0],[1,0.3],[2,0.3],[2,1]]`. Allowed: up to 1:4. Default: equal spheres.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub sizes: Option<Sizes>,
 }
@@ -155,7 +157,8 @@ pub struct GasKeys {
 pub struct PlateKeys {
     /// The wall that is heated. Allowed: a flat wall that the bed touches; with `pressure`, not the one on which the bed rests.
     pub wall: String,
-    /// Its temperature from t = 0 on \[K\]. Allowed: `TEMPERATURES`.
+    /// Its temperature from t = 0 on, a number or a text with a unit, as `"80C"` \[K\]. Allowed: `TEMPERATURES`.
+    #[serde(deserialize_with = "kelvin")]
     pub temperature: f64,
     /// Pressure with which it is pressed onto the bed before that \[Pa\]. Allowed: `POSITIVE`. Default: it stays where it is.
     pub pressure: Option<f64>,
@@ -177,7 +180,8 @@ pub struct PlateKeys {
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Heat {
-    /// Temperature of all grains at the start \[K\]. Allowed: `TEMPERATURES`.
+    /// Temperature of all grains at the start, a number or a text with a unit \[K\]. Allowed: `TEMPERATURES`.
+    #[serde(deserialize_with = "kelvin")]
     pub initial_temperature: f64,
     /// End of the run \[s\]. Allowed: `POSITIVE`.
     pub end: f64,

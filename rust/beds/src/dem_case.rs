@@ -6,6 +6,7 @@ use crate::case::{
 };
 use crate::pour::Container;
 use crate::schedule::Schedule;
+use crate::units::{kelvin, kelvin_over_time};
 use msdd_engine::message::number;
 use msdd_files::read_text;
 use serde::{Deserialize, Serialize};
@@ -87,7 +88,8 @@ pub struct LidKeys {
 pub struct Heated {
     /// Name of the wall. Allowed: a wall of the container.
     pub wall: String,
-    /// Its temperature over time \[K\]. Allowed: `TEMPERATURES`.
+    /// Its temperature over time; each may be a text with a unit, as `"80C"` \[K\]. Allowed: `TEMPERATURES`.
+    #[serde(deserialize_with = "kelvin_over_time")]
     pub temperature: Schedule,
 }
 
@@ -119,7 +121,8 @@ pub struct Sides {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Time {
-    /// Temperature of all spheres at the start \[K\]. Allowed: `TEMPERATURES`.
+    /// Temperature of all spheres at the start, a number or a text with a unit \[K\]. Allowed: `TEMPERATURES`.
+    #[serde(deserialize_with = "kelvin")]
     pub initial_temperature: f64,
     /// End of the run \[s\]. Allowed: `POSITIVE`.
     pub end: f64,

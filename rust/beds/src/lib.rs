@@ -16,6 +16,7 @@
 //! | [`pack`](mod@pack) | compression of a periodic box to a pressure |
 //! | [`schedule`] | a quantity that is given over time |
 //! | [`property`] | properties by temperature |
+//! | [`units`] | numbers with units |
 //! | [`gas`] | law of heat through gas: between two spheres, and to a plate |
 //! | [`named_gases`] | air, nitrogen, helium, argon, vacuum |
 //! | [`solid`] | law of heat through a contact, smooth or rough; stress in it |
@@ -84,6 +85,7 @@ pub mod sizes;
 pub mod solid;
 mod solve;
 pub mod transient;
+pub mod units;
 pub mod voxels;
 pub mod vtk;
 pub mod walk_on_spheres;

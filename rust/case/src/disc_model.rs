@@ -147,13 +147,13 @@ pub(crate) fn of_training(database: &DatabaseProvenance) -> Result<(Material, [f
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::grains::PRESETS;
+    use crate::scenes_for_tests::disc;
 
     #[test]
     fn a_model_file_has_grains_of_its_own() {
         let shipped = DiscModel::shipped().unwrap();
         assert_eq!((shipped.radii(), shipped.porosities()), ([0.6, 1.4], POROSITIES));
-        assert_eq!(shipped.material(&PRESETS[0].grains), Material::default());
+        assert_eq!(shipped.material(&disc(0)), Material::default());
         assert_eq!(shipped.packing_angle(), PACKING_FRICTION.atan());
         let file = std::env::temp_dir().join(format!("msdd-disc-model-{}", std::process::id()));
         let read = |from: &str, to: &str| {
@@ -163,7 +163,7 @@ mod tests {
         };
         let own = read("\"friction_angle\": 0.5", "\"friction_angle\": 0.3").unwrap();
         assert_ne!(own, shipped);
-        assert_eq!((own.material(&PRESETS[0].grains).friction_angle, own.packing_angle()), (0.3, 0.3));
+        assert_eq!((own.material(&disc(0)).friction_angle, own.packing_angle()), (0.3, 0.3));
         assert!((own.radii()[0] - 8.0 / 11.0).abs() < 1e-9);
         let error = read("\"stiffness_ratio\": 0.8,", "").unwrap_err();
         assert!(

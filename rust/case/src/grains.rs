@@ -1,4 +1,4 @@
-//! The grains of a new case: named materials, and materials given by their values.
+//! The grains of a new case.
 
 use crate::CaseError;
 use crate::ranges::allow;
@@ -20,89 +20,6 @@ pub struct Grains {
     pub thermal_expansion: f64,
     /// Mean radius r̄ \[m\]; the radii are uniformly distributed between 0.6 r̄ and 1.4 r̄.
     pub mean_radius: f64,
-}
-
-/// A named material.
-pub struct Preset {
-    pub name: &'static str,
-    /// Description, and the source of the numbers.
-    pub about: &'static str,
-    pub grains: Grains,
-    /// Proposed initial temperature \[K\].
-    pub temperature: f64,
-}
-
-/// The named materials of discs; the first one is the default.
-pub const PRESETS: [Preset; 4] = [
-    Preset {
-        name: "paper",
-        about: "the model material of the paper (Table 2): soft grains that expand strongly, so that effects show within \
-                seconds",
-        grains: Grains {
-            density: 3000.0,
-            young_modulus: 1e7,
-            thermal_conductivity: 100.0,
-            heat_capacity: 1.0,
-            thermal_expansion: 1e-3,
-            mean_radius: 5e-3,
-        },
-        temperature: 50.0,
-    },
-    Preset {
-        name: "steel",
-        about: "stainless steel AISI 304 near room temperature (ASM material data sheet), balls of 2 mm diameter",
-        grains: Grains {
-            density: 8000.0,
-            young_modulus: 193e9,
-            thermal_conductivity: 16.2,
-            heat_capacity: 500.0,
-            thermal_expansion: 17.3e-6,
-            mean_radius: 1e-3,
-        },
-        temperature: 293.15,
-    },
-    Preset {
-        name: "glass",
-        about: "soda-lime glass near room temperature (MakeItFrom.com, annealed soda-lime glass), beads of 1 mm diameter",
-        grains: Grains {
-            density: 2400.0,
-            young_modulus: 71e9,
-            thermal_conductivity: 1.0,
-            heat_capacity: 800.0,
-            thermal_expansion: 8.8e-6,
-            mean_radius: 0.5e-3,
-        },
-        temperature: 293.15,
-    },
-    Preset {
-        name: "alumina",
-        about: "sintered alumina at 20 degrees Celsius (NIST Standard Reference Database 150; R. G. Munro, J. Am. Ceram. \
-                Soc. 80, 1919, 1997), spheres of 3 mm diameter",
-        grains: Grains {
-            density: 3984.0,
-            young_modulus: 416e9,
-            thermal_conductivity: 33.0,
-            heat_capacity: 755.0,
-            thermal_expansion: 4.6e-6,
-            mean_radius: 1.5e-3,
-        },
-        temperature: 293.15,
-    },
-];
-
-/// The material of this name among `presets`.
-///
-/// # Errors
-/// [`CaseError::Parameter`] that lists the names there are.
-pub fn preset(presets: &[&'static Preset], name: &str) -> Result<&'static Preset, CaseError> {
-    presets.iter().copied().find(|preset| preset.name == name).ok_or_else(|| {
-        let names: Vec<&str> = presets.iter().map(|preset| preset.name).collect();
-        CaseError::Parameter {
-            key: "material".to_string(),
-            value: name.to_string(),
-            allowed: format!("{}; give the values of others one by one", names.join(", ")),
-        }
-    })
 }
 
 /// What properties of grains may be; so narrow that products of such numbers cannot overflow.

@@ -12,7 +12,8 @@
 //! | [`section`] | a mesh in a plane: its cells as polygons |
 //! | [`disc_model`] | the model of discs of a new case |
 //! | [`fields`] | texts of initial fields |
-//! | [`grains`] | materials of new cases |
+//! | [`grains`] | the grains of new cases |
+//! | [`material`] | materials as files, named ones and those of users |
 //! | [`scene`] | the parameters of a new case |
 //! | [`packing`] | the initial packing of a new case |
 //! | [`folder`] | the files of a new case |
@@ -32,6 +33,7 @@ pub mod disc_model;
 pub mod fields;
 pub mod folder;
 pub mod grains;
+pub mod material;
 pub mod mesh;
 pub mod model;
 pub mod numbers;

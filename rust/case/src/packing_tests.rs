@@ -1,7 +1,7 @@
 //! Compares packings with the model.
 
 use super::*;
-use crate::grains::PRESETS;
+use crate::scenes_for_tests::disc;
 use msdd_rve::database::plan::Plan;
 
 #[test]
@@ -15,7 +15,7 @@ fn porosities_are_those_of_the_plan_that_the_model_was_trained_with() {
 #[test]
 fn packed_boxes_are_what_the_model_expects_at_any_size_and_stiffness_and_meet_a_pressure() {
     let model = DiscModel::shipped().unwrap();
-    for grains in [&PRESETS[0].grains, &PRESETS[1].grains] {
+    for grains in [&disc(0), &disc(1)] {
         let packed = |compression, start| {
             let (discs, effort) =
                 (Discs { grains, model: &model, compression }, Effort { boxes: 4, seed: 1, threads: 2 });

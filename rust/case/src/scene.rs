@@ -7,6 +7,7 @@ use crate::numbers::rounded;
 use crate::packing::{self, Discs, InitialPacking};
 use crate::ranges;
 use crate::walls::{self, WallOverTime};
+use msdd_beds::units::TEMPERATURE;
 use msdd_dem::WallHeat;
 use msdd_rve::Compression;
 
@@ -228,7 +229,7 @@ pub fn parse_point(text: &str) -> Result<Numbers<f64>, String> {
 pub fn parse_wall(text: &str) -> Result<WallOverTime, String> {
     let text = text.trim();
     let allowed = || {
-        "insulated, a temperature in Kelvin such as 350, temperatures over time such as 0:300,60:350 (times [s] from 0 on and \
+        "insulated, a temperature in kelvin such as 350 or with a unit such as 80C, temperatures over time such as 0:300,60:350 (times [s] from 0 on and \
          rising), a heat transfer coefficient [W/(m2 K)] and the temperature outside such as h=200,T=300, or a heat flux into \
          the bed [W/m2] such as q=500"
             .to_string()
@@ -236,7 +237,7 @@ pub fn parse_wall(text: &str) -> Result<WallOverTime, String> {
     if text == "insulated" {
         return Ok(WallOverTime::Steady(WallHeat::Insulated));
     }
-    if let Ok(value) = text.parse::<f64>() {
+    if let Ok(value) = TEMPERATURE.parse(text) {
         return Ok(WallOverTime::Steady(WallHeat::Temperature(value)));
     }
     if text.contains('=') {
@@ -244,21 +245,23 @@ pub fn parse_wall(text: &str) -> Result<WallOverTime, String> {
     }
     let row = |part: &str| {
         let (time, value) = part.split_once(':')?;
-        Some([time.trim().parse().ok()?, value.trim().parse().ok()?])
+        Some([time.trim().parse().ok()?, TEMPERATURE.parse(value).ok()?])
     };
     let rows: Vec<[f64; 2]> = text.split(',').map(row).collect::<Option<_>>().ok_or_else(allowed)?;
     WallOverTime::table(rows).ok_or_else(allowed)
 }
 
 fn by_name(text: &str) -> Option<WallOverTime> {
-    let named = |part: &str, name: &str| -> Option<f64> {
+    let text_of = |part: &'_ str, name: &str| -> Option<String> {
         let (key, value) = part.split_once('=')?;
-        if key.trim() == name { value.trim().parse().ok() } else { None }
+        (key.trim() == name).then(|| value.trim().to_string())
     };
+    let named = |part: &str, name: &str| -> Option<f64> { text_of(part, name)?.parse().ok() };
     match text.split_once(',') {
-        Some((h, outside)) => {
-            Some(WallOverTime::Coefficient { coefficient: named(h, "h")?, outside: named(outside, "T")? })
-        }
+        Some((h, outside)) => Some(WallOverTime::Coefficient {
+            coefficient: named(h, "h")?,
+            outside: TEMPERATURE.parse(&text_of(outside, "T")?).ok()?,
+        }),
         None => Some(WallOverTime::Flux(named(text, "q")?)),
     }
 }

@@ -1,7 +1,7 @@
 //! Tests of the parameters of a new case: how they are written, what is refused, what is proposed.
 
 use super::*;
-use crate::grains::PRESETS;
+use crate::scenes_for_tests::disc;
 use crate::scenes_for_tests::{discs, each_is_refused, walls};
 
 #[test]
@@ -52,7 +52,7 @@ fn walls_are_read_as_they_are_written() {
 
 #[test]
 fn proposals_follow_grains_walls_and_diffusion() {
-    let (size, grains) = ([0.645, 0.215], PRESETS[0].grains);
+    let (size, grains) = ([0.645, 0.215], disc(0));
     assert_eq!([proposed_cells(size, 5e-3), proposed_cells([2.15, 0.645], 1e-3)], [[30, 10], [100, 30]]);
     let walls = walls(["100", "50", "insulated", "insulated"]);
     let mut scene = DiscCase { size, grains, walls, initial_temperature: 50.0, cells: [30, 10], ..discs() };

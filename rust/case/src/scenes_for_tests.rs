@@ -3,10 +3,11 @@
 use crate::CaseError;
 use crate::disc_model::DiscModel;
 use crate::folder::File;
-use crate::grains::PRESETS;
+use crate::grains::Grains;
+use crate::material::{OF_DISCS, OF_SPHERES, Values};
 use crate::packing::InitialPacking;
 use crate::scene::{DiscCase, Mechanics, parse_wall, proposed_cells, proposed_probes};
-use crate::spheres::material::MATERIALS;
+use crate::spheres::material::Spheres;
 use crate::spheres::scene::{Lid, SphereCase};
 use crate::spheres::shape::Shape;
 use crate::spheres::start::Gas;
@@ -14,6 +15,17 @@ use crate::spheres::wall;
 use crate::walls::WallOverTime;
 use msdd_beds::named_gases::GasName;
 use msdd_rve::Compression;
+
+/// The grains of a named material of discs.
+pub fn disc(number: usize) -> Grains {
+    OF_DISCS[number].grains(&Values::default()).expect("a shipped material")
+}
+
+/// The spheres of the first material.
+pub fn steel() -> Spheres {
+    let steel = &OF_SPHERES[0];
+    Spheres::of(steel, steel.grains(&Values::default()).expect("all values")).expect("all values")
+}
 
 pub fn walls<const N: usize>(texts: [&str; N]) -> [WallOverTime; N] {
     texts.map(|text| parse_wall(text).unwrap())
@@ -27,7 +39,7 @@ pub fn discs() -> DiscCase {
         walls: walls(["350", "insulated", "0:293,60:350", "insulated"]),
         initial_temperature: 293.15,
         material: "steel".to_string(),
-        grains: PRESETS[1].grains,
+        grains: disc(1),
         model: DiscModel::shipped().unwrap(),
         start: InitialPacking::Porosity(0.125),
         compression: Compression::Horizontal,
@@ -47,7 +59,7 @@ pub fn spheres() -> SphereCase {
         walls: walls(["400", "293", "insulated"]).to_vec(),
         initial_temperature: 293.0,
         material: "steel".to_string(),
-        spheres: MATERIALS[0].spheres(),
+        spheres: steel(),
         gas: Gas { name: GasName::Helium, pressure: 1e5 },
         flow: None,
         porosity: 0.4,

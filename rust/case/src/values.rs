@@ -5,6 +5,7 @@ use crate::numbers::{plain, rounded};
 use crate::packing::{Packing, RADIUS_RANGE, Spread};
 use crate::scene::{DiscCase, Mechanics, WALLS};
 use crate::walls::WallOverTime;
+use msdd_beds::property::Property;
 use msdd_dem::{Material, WallHeat};
 use msdd_rve::Compression;
 use std::f64::consts::PI;
@@ -308,4 +309,15 @@ pub fn compression_name(compression: Compression) -> &'static str {
 /// Replaces every `@key@` by its value.
 pub(crate) fn fill(template: &str, values: &Values) -> String {
     values.iter().fold(template.to_string(), |text, (key, value)| text.replace(&format!("@{key}@"), value))
+}
+/// A property as the solver reads it.
+pub fn property_text(of: &Property) -> String {
+    match of {
+        Property::Constant(value) => plain(*value),
+        Property::Table(rows) => {
+            let rows: Vec<String> =
+                rows.iter().map(|[t, value]| format!("({} {})", plain(*t), plain(*value))).collect();
+            format!("table ({})", rows.join(" "))
+        }
+    }
 }

@@ -6,7 +6,9 @@
 //! ```
 
 use msdd_beds::named_gases::GasName;
-use msdd_case::spheres::material::{Emissivity, MATERIALS};
+use msdd_beds::property::Property;
+use msdd_case::material::{OF_SPHERES, Values};
+use msdd_case::spheres::material::Spheres;
 use msdd_case::spheres::start::{Gas, PouredBed};
 use msdd_draw::{Axis, Line, Style, plot_named, series};
 use std::error::Error;
@@ -38,8 +40,8 @@ fn main() -> Result<(), Box<dyn Error>> {
 }
 
 fn bed(diameter: f64, solid: f64) -> Result<PouredBed, Box<dyn Error>> {
-    let mut spheres = MATERIALS[0].spheres();
-    spheres.emissivity = Emissivity::Constant(EMISSIVITY);
+    let mut spheres = Spheres::of(&OF_SPHERES[0], OF_SPHERES[0].grains(&Values::default())?)?;
+    spheres.emissivity = Property::Constant(EMISSIVITY);
     (spheres.grains.mean_radius, spheres.grains.thermal_conductivity) = (0.5 * diameter, solid);
     Ok(PouredBed::new(spheres, STRESS)?)
 }

@@ -9,7 +9,9 @@ use crate::fields::{FieldKind, uniform};
 use crate::folder::{File, programs};
 use crate::numbers::{plain, rounded};
 use crate::scene::Mechanics;
-use crate::values::{Values, fill, libraries, mechanics_name, source, times, wall_rows, walls};
+use crate::values::{
+    Values, fill, libraries, mechanics_name, property_text, source, times, wall_rows, walls,
+};
 use std::f64::consts::PI;
 use std::path::Path;
 
@@ -114,9 +116,17 @@ fn values(scene: &SphereCase, name: &str, checkout: &Path) -> Result<Values, Cas
         ("material", scene.material.clone()),
     ];
     values.extend(times(scene.end_time, scene.first_step()?));
-    values.extend(scene.spheres.grains.named().map(|(key, value, _)| (key, plain(value))));
+    let over = [
+        ("thermalConductivity", &scene.spheres.conductivity),
+        ("heatCapacity", &scene.spheres.heat_capacity),
+    ];
+    values.extend(scene.spheres.grains.named().map(|(key, value, _)| {
+        let table = over.iter().find(|(name, _)| *name == key);
+        (key, table.map_or_else(|| plain(value), |(_, property)| property_text(property)))
+    }));
     values.extend(scene.spheres.named().map(|(key, value, _)| (key, plain(value))));
-    values.push(("emissivity", scene.spheres.emissivity.text()));
+    values.push(("emissivity", property_text(&scene.spheres.emissivity)));
+    values.push(("sizeSpread", plain(scene.spheres.size_spread)));
     values.extend(mesh_values(scene));
     values.extend(bed_values(scene, &start)?);
     Ok(values)

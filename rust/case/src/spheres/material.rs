@@ -1,188 +1,71 @@
-//! The spheres of a new case: named materials, and materials given by their values.
+//! The spheres of a new case.
 
 use crate::CaseError;
-use crate::grains::{Grains, Preset};
-use crate::numbers::plain;
+use crate::grains::Grains;
+use crate::material::Material;
 use crate::ranges::allow;
 use msdd_beds::property::Property;
+use msdd_beds::sizes::{MAX_SPREAD, equal_density};
+use msdd_beds::units;
 
-/// Equal spheres of one material. The law of spheres knows one friction between them, 0.3.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// Spheres of one material. The law of spheres knows one friction between them, 0.3.
+#[derive(Clone, Debug, PartialEq)]
 pub struct Spheres {
-    /// `mean_radius` is the radius of the spheres, `young_modulus` that of the solid.
+    /// `mean_radius` is the radius of the spheres, `young_modulus` that of the solid; properties at the start.
     pub grains: Grains,
+    pub conductivity: Property,
+    pub heat_capacity: Property,
     /// Poisson's ratio \[-\].
     pub poisson_ratio: f64,
     /// Height of the asperities (root mean square) over their slope \[m\]; 0: smooth.
     pub roughness: f64,
     /// Hardness of the surface \[Pa\], which counts where it is rough.
     pub hardness: f64,
-    pub emissivity: Emissivity,
-}
-
-/// ε \[-\] of the surface of spheres.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Emissivity {
     /// 0: without radiation.
-    Constant(f64),
-    /// Pairs of temperature \[K\] and value.
-    Table(&'static [[f64; 2]]),
+    pub emissivity: Property,
+    /// Force on a contact at which a sphere breaks \[N\], if it is known.
+    pub crush_load: Option<f64>,
+    /// Standard deviation of the diameters over their mean, both weighted by surface; `mean_radius` is half the mean.
+    pub size_spread: f64,
 }
 
-impl Emissivity {
-    pub fn property(self) -> Property {
-        match self {
-            Self::Constant(value) => Property::Constant(value),
-            Self::Table(rows) => Property::Table(rows.to_vec()),
-        }
-    }
-
-    /// The value in `spheresCoeffs`.
-    pub fn text(self) -> String {
-        match self {
-            Self::Constant(value) => plain(value),
-            Self::Table(rows) => {
-                let rows: Vec<String> =
-                    rows.iter().map(|[t, value]| format!("({} {})", plain(*t), plain(*value))).collect();
-                format!("table ({})", rows.join(" "))
-            }
-        }
-    }
-}
-
-/// A named material of spheres.
-pub struct Material {
-    pub preset: Preset,
-    pub poisson_ratio: f64,
-    /// As in [`Spheres`].
-    pub roughness: f64,
-    pub hardness: f64,
-    pub emissivity: Emissivity,
-}
-
-/// The named materials; the first one is the default.
-pub static MATERIALS: [Material; 4] = [
-    Material {
-        preset: Preset {
-            name: "steel",
-            about: "balls of bearing steel 100Cr6 of 6.4 mm diameter (usual values of handbooks; roughness of the balls of \
-                    Beaulieu's bed, cases/beaulieu; emissivity of polished steel from 310 to 530 K: J. R. Thome, Radiative heat \
-                    transfer, EPFL, 2008, from 670 to 1270 K: \
-                    M. A. Bramson, Infrared Radiation, as in FLIR's tables; oxidised steel has 0.8)",
-            grains: Grains {
-                density: 7800.0,
-                young_modulus: 210e9,
-                thermal_conductivity: 46.0,
-                heat_capacity: 475.0,
-                thermal_expansion: 1.2e-5,
-                mean_radius: 3.2e-3,
-            },
-            temperature: 293.15,
-        },
-        poisson_ratio: 0.3,
-        roughness: 3.4e-7,
-        hardness: 7e9,
-        emissivity: Emissivity::Table(&[
-            [200.0, 0.07],
-            [310.0, 0.07],
-            [530.0, 0.1],
-            [670.0, 0.14],
-            [1270.0, 0.38],
-            [2000.0, 0.38],
-        ]),
-    },
-    Material {
-        preset: Preset {
-            name: "glass",
-            about: "soda-lime glass near room temperature (MakeItFrom.com, annealed soda-lime glass; emissivity as in tables for \
-                    thermographs, 0.94 for polished plate glass), smooth beads of 4 mm diameter",
-            grains: Grains {
-                density: 2400.0,
-                young_modulus: 71e9,
-                thermal_conductivity: 1.0,
-                heat_capacity: 800.0,
-                thermal_expansion: 8.8e-6,
-                mean_radius: 2e-3,
-            },
-            temperature: 293.15,
-        },
-        poisson_ratio: 0.22,
-        roughness: 0.0,
-        hardness: 5.5e9,
-        emissivity: Emissivity::Constant(0.93),
-    },
-    Material {
-        preset: Preset {
-            name: "alumina",
-            about: "sintered alumina at 20 degrees Celsius (NIST Standard Reference Database 150; R. G. Munro, J. Am. Ceram. \
-                    Soc. 80, 1919, 1997; emissivity from 400 to 1500 K: P. E. Liley, Heat Exchanger Design Handbook 5.5.7), \
-                    spheres of 6 mm diameter, taken as smooth",
-            grains: Grains {
-                density: 3984.0,
-                young_modulus: 416e9,
-                thermal_conductivity: 33.0,
-                heat_capacity: 755.0,
-                thermal_expansion: 4.6e-6,
-                mean_radius: 3e-3,
-            },
-            temperature: 293.15,
-        },
-        poisson_ratio: 0.231,
-        roughness: 0.0,
-        hardness: 15e9,
-        emissivity: Emissivity::Table(&[
-            [200.0, 0.78],
-            [400.0, 0.78],
-            [600.0, 0.69],
-            [800.0, 0.61],
-            [1000.0, 0.54],
-            [1200.0, 0.49],
-            [1400.0, 0.42],
-            [1500.0, 0.4],
-            [2000.0, 0.4],
-        ]),
-    },
-    Material {
-        preset: Preset {
-            name: "lithium-orthosilicate",
-            about: "pebbles of a breeder bed near 700 K in round numbers (as cases/blanket; elastic constants: Y. Futamura, Data \
-                    Base for Tritium Solid Breeding Materials, University of Toyama, 7.2; emissivity assumed as of other \
-                    oxides), 0.5 mm diameter, taken as smooth",
-            grains: Grains {
-                density: 2400.0,
-                young_modulus: 90e9,
-                thermal_conductivity: 2.4,
-                heat_capacity: 1500.0,
-                thermal_expansion: 2.5e-5,
-                mean_radius: 2.5e-4,
-            },
-            temperature: 673.15,
-        },
-        poisson_ratio: 0.24,
-        roughness: 0.0,
-        hardness: 1e9,
-        emissivity: Emissivity::Constant(0.8),
-    },
-];
-
-/// The materials as those of any grains.
-pub fn presets() -> Vec<&'static Preset> {
-    MATERIALS.iter().map(|material| &material.preset).collect()
-}
-
-impl Material {
-    pub fn spheres(&self) -> Spheres {
-        Spheres {
-            grains: self.preset.grains,
-            poisson_ratio: self.poisson_ratio,
-            roughness: self.roughness,
-            hardness: self.hardness,
-            emissivity: self.emissivity,
-        }
-    }
-}
+/// Hardness of smooth spheres, which counts where they are rough \[Pa\].
+const ANY_HARDNESS: f64 = 1e9;
 
 impl Spheres {
+    /// Equal spheres of a material, with these grains.
+    ///
+    /// # Errors
+    /// A value that the material does not have.
+    pub fn of(material: &Material, grains: Grains) -> Result<Self, CaseError> {
+        // A value that was replaced holds at all temperatures.
+        let over = |property: &Option<Property>, value: f64| match property {
+            Some(table) if table.at(material.temperature) == value => table.clone(),
+            _ => Property::Constant(value),
+        };
+        let roughness = material.roughness.unwrap_or(0.0);
+        let hardness =
+            if roughness > 0.0 { material.hardness } else { material.hardness.or(Some(ANY_HARDNESS)) };
+        Ok(Self {
+            conductivity: over(&material.thermal_conductivity, grains.thermal_conductivity),
+            heat_capacity: over(&material.heat_capacity, grains.heat_capacity),
+            poisson_ratio: material.required("poisson_ratio", None, material.poisson_ratio, &units::RATIO)?,
+            hardness: material.required("hardness", None, hardness, &units::STRESS)?,
+            emissivity: material.emissivity.clone().unwrap_or(Property::Constant(0.0)),
+            crush_load: material.crush_load,
+            size_spread: 0.0,
+            roughness,
+            grains,
+        })
+    }
+
+    /// With the conductivity and the heat capacity at this temperature \[K\] in `grains`.
+    pub fn starting_at(mut self, temperature: f64) -> Self {
+        self.grains.thermal_conductivity = self.conductivity.at(temperature);
+        self.grains.heat_capacity = self.heat_capacity.at(temperature);
+        self
+    }
+
     /// Numbers of the law of spheres alone, by the names that they have in `spheresCoeffs`, with unit.
     pub fn named(&self) -> [(&'static str, f64, &'static str); 3] {
         [
@@ -206,12 +89,23 @@ impl Spheres {
         for ((key, value, _), (least, most, allowed)) in self.named().into_iter().zip(ranges) {
             allow(key, value, (least..=most).contains(&value), || allowed.to_string())?;
         }
+        allow("sizeSpread", self.size_spread, (0.0..=MAX_SPREAD).contains(&self.size_spread), || {
+            format!("0 (equal spheres) to {MAX_SPREAD}")
+        })?;
+        if let Some(load) = self.crush_load {
+            allow("crush_load", load, load > 0.0 && load <= 1e9, || "above 0, to 1e9 N".into())?;
+        }
         match self.emissivity {
-            Emissivity::Constant(value) => allow("emissivity", value, (0.0..=1.0).contains(&value), || {
+            Property::Constant(value) => allow("emissivity", value, (0.0..=1.0).contains(&value), || {
                 "0 (without radiation) to 1".into()
             }),
-            Emissivity::Table(_) => Ok(()),
+            Property::Table(_) => Ok(()),
         }
+    }
+
+    /// φ of equal spheres that the law takes for these, over φ.
+    pub fn equal_density(&self) -> f64 {
+        equal_density(self.size_spread)
     }
 
     /// \[m\]

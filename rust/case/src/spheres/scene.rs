@@ -11,6 +11,7 @@ use crate::scene::Mechanics;
 use crate::walls::{self, WallOverTime};
 use msdd_beds::effective::MIN_RATIO;
 use msdd_beds::named_gases::GasName;
+use msdd_beds::property::VALUES;
 use msdd_rve::message::number;
 use std::f64::consts::PI;
 
@@ -108,9 +109,9 @@ fn refuse<T>(key: &str, value: &str, allowed: &str) -> Result<T, CaseError> {
 ///
 /// # Errors
 /// [`CaseError::Parameter`]; [`CaseError::Model`] when the shipped law cannot be read.
-pub fn check_pressure(spheres: Spheres, pressure: f64) -> Result<(), CaseError> {
+pub fn check_pressure(spheres: &Spheres, pressure: f64) -> Result<(), CaseError> {
     let short = |value: f64| number(rounded(value, 3));
-    let [least, most] = PouredBed::new(spheres, pressure)?.pressures();
+    let [least, most] = PouredBed::new(spheres.clone(), pressure)?.pressures();
     allow("pressure", pressure, (least..=most).contains(&pressure), || {
         format!("{} to {} Pa, the range of the law for these", short(least), short(most))
     })
@@ -120,8 +121,8 @@ pub fn check_pressure(spheres: Spheres, pressure: f64) -> Result<(), CaseError> 
 ///
 /// # Errors
 /// As for [`check_pressure`].
-pub fn check_porosity(spheres: Spheres, pressure: f64, porosity: f64) -> Result<(), CaseError> {
-    let known = PouredBed::new(spheres, pressure)?.porosities();
+pub fn check_porosity(spheres: &Spheres, pressure: f64, porosity: f64) -> Result<(), CaseError> {
+    let known = PouredBed::new(spheres.clone(), pressure)?.porosities();
     let inside = known.is_some_and(|[least, most]| (least..=most).contains(&porosity));
     allow("porosity", porosity, inside, || match known {
         Some([least, most]) => format!(
@@ -142,8 +143,8 @@ impl SphereCase {
         self.check_mesh()?;
         self.check_heat()?;
         self.check_flow()?;
-        check_pressure(self.spheres, self.pressure)?;
-        check_porosity(self.spheres, self.pressure, self.porosity)?;
+        check_pressure(&self.spheres, self.pressure)?;
+        check_porosity(&self.spheres, self.pressure, self.porosity)?;
         self.check_mechanics()?;
         ranges::end_time(self.end_time)?;
         self.tolerance.map_or(Ok(()), ranges::tolerance)
@@ -170,9 +171,22 @@ impl SphereCase {
             ranges::wall(wall, |value| ranges::temperature_with(gas, name, value))?;
         }
         ranges::gas_pressure(self.gas.pressure)?;
+        let spheres = &self.spheres;
+        for (key, property) in [
+            ("thermalConductivity", &spheres.conductivity),
+            ("heatCapacity", &spheres.heat_capacity),
+            ("emissivity", &spheres.emissivity),
+        ] {
+            if let Err(error) = property.check(self.temperatures(), [0.0, VALUES[1]]) {
+                let text = error.to_string();
+                let (value, allowed) = text.split_once(", allowed: ").unwrap_or((&text, "see above"));
+                return refuse(key, value, allowed);
+            }
+        }
         for temperature in self.temperatures() {
             let Some(between) = gas.at(temperature, self.gas.pressure, 1.0) else { continue };
-            let (solid, least) = (self.spheres.grains.thermal_conductivity, MIN_RATIO * between.conductivity);
+            let (solid, least) =
+                (self.spheres.conductivity.at(temperature), MIN_RATIO * between.conductivity);
             allow("thermalConductivity", solid, solid >= least, || {
                 format!(
                     "at least the conductivity of the gas ({}), {} W/(m K) at {} K",
@@ -254,7 +268,7 @@ impl SphereCase {
     }
 
     fn bed(&self) -> Result<PouredBed, CaseError> {
-        PouredBed::new(self.spheres, self.pressure)
+        PouredBed::new(self.spheres.clone(), self.pressure)
     }
 
     /// The bed at the start.

@@ -1,13 +1,16 @@
 //! Tests of the parameters of a new case of spheres: what is refused, what is proposed.
 
 use super::*;
+use crate::material::{OF_SPHERES, Values};
 use crate::scene::parse_wall;
 use crate::scenes_for_tests::{each_is_refused, spheres};
-use crate::spheres::material::MATERIALS;
+use crate::spheres::material::Spheres;
 
 #[test]
 fn wishes_out_of_range_are_refused_with_key_value_and_range() {
-    MATERIALS.iter().for_each(|material| material.spheres().check().unwrap());
+    for material in OF_SPHERES.iter() {
+        Spheres::of(material, material.grains(&Values::default()).unwrap()).unwrap().check().unwrap();
+    }
     let no_shell = Some(Shell { young_modulus: 2e11, thickness: 0.0, thermal_expansion: 0.0 });
     let error = SphereCase { shell: no_shell, ..spheres() }.check().unwrap_err().to_string();
     assert!(error.starts_with("thickness of the shell = 0, allowed: more than 0"), "{error}");

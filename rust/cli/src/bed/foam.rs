@@ -6,12 +6,13 @@ use crate::case::checkout;
 use crate::error::CliError;
 use clap::Args;
 use msdd_beds::dem_case::{DemCase, file_in};
-use msdd_beds::property::Property;
 use msdd_beds::schedule::Schedule;
+use msdd_beds::sizes::MAX_SPREAD;
 use msdd_case::fields::{FieldKind, head, uniform};
 use msdd_case::folder::{self, File, check_folder};
-use msdd_case::numbers::plain;
+use msdd_case::numbers::{plain, rounded};
 use msdd_case::spheres::wall;
+use msdd_case::values::property_text;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
@@ -90,6 +91,14 @@ pub fn files(
     name: &str,
     checkout: &Path,
 ) -> Result<Vec<File>, CliError> {
+    let spread = scene.grains.moments().spread;
+    if spread > MAX_SPREAD {
+        return Err(CliError::Message(format!(
+            "{}: grains.sizes: the spread of the diameters is {spread:.3} of their mean, by surface, allowed: up to {MAX_SPREAD}, for which the \
+             law of spheres was compared",
+            file_in(folder).display()
+        )));
+    }
     let geometry = Geometry::new(&file_in(folder), scene, start.depth)?;
     let porosity = geometry.porosity(start);
     let origin = format!("From DEM at the start: {}: written by 'msdd bed case'", start.file.display());
@@ -168,29 +177,20 @@ fn temperature(scene: &DemCase) -> String {
     )
 }
 
-fn property(of: &Property) -> String {
-    match of {
-        Property::Constant(value) => plain(*value),
-        Property::Table(rows) => {
-            let rows: Vec<String> =
-                rows.iter().map(|[t, value]| format!("({} {})", plain(*t), plain(*value))).collect();
-            format!("table ({})", rows.join(" "))
-        }
-    }
-}
-
 fn properties(scene: &DemCase, start: &FirstRow, geometry: &Geometry) -> String {
     let grains = &scene.grains;
     let fabric = geometry.tensor(start.fabric);
-    let emissivity = grains
-        .emissivity
-        .as_ref()
-        .map_or(String::new(), |emissivity| format!("        emissivity      {};\n", property(emissivity)));
+    let emissivity = grains.emissivity.as_ref().map_or(String::new(), |emissivity| {
+        format!("        emissivity      {};\n", property_text(emissivity))
+    });
+    let spread = grains.sizes.as_ref().map_or(String::new(), |_| {
+        format!("        sizeSpread      {};\n", plain(rounded(grains.moments().spread, 4)))
+    });
     let mut text = format!(
         "// The law of spheres, and what the bed is like at the start\n\
          surrogate\n{{\n    type            spheres;\n    spheresCoeffs\n    {{\n\
          \x20       poissonRatio    {};\n        roughness       {};\n        hardness        {};\n\
-         {emissivity}\x20       gas             {};\n        gasPressure     {};\n        accommodation   {};\n\
+         {emissivity}{spread}\x20       gas             {};\n        gasPressure     {};\n        accommodation   {};\n\
          \x20       coordination    {};\n        mobilised       {};\n        fabric          {fabric};\n    }}\n}}\n\n\
          density             {};\nyoungModulus        {};\nthermalConductivity {};\nheatCapacity        {};\n\
          thermalExpansion    {};\nmeanRadius          {};\n\nmechanics           equilibrium;\n\nequilibriumCoeffs\n{{\n    walls\n    {{\n",
@@ -204,8 +204,8 @@ fn properties(scene: &DemCase, start: &FirstRow, geometry: &Geometry) -> String 
         plain(start.mobilised),
         plain(grains.density),
         plain(grains.young_modulus),
-        property(&grains.conductivity),
-        property(&grains.heat_capacity),
+        property_text(&grains.conductivity),
+        property_text(&grains.heat_capacity),
         plain(grains.thermal_expansion.unwrap_or(0.0)),
         plain(0.5 * grains.diameter),
     );

@@ -1,12 +1,12 @@
 //! The user's choices for a new case: options, and questions about everything that is not given as an option.
 
 use super::disc_options::GrainWishes;
-use super::prompts::{Prompter, number};
+use super::prompts::{Prompter, number, temperature};
 use crate::error::CliError;
 use clap::{Args, ValueEnum};
 use msdd_case::CaseError;
 use msdd_case::disc_model::DiscModel;
-use msdd_case::grains::{PRESETS, Preset};
+use msdd_case::material::OF_DISCS;
 use msdd_case::numbers::{plain, rounded};
 use msdd_case::packing::{self, Discs, InitialPacking};
 use msdd_case::ranges;
@@ -45,7 +45,7 @@ pub struct CommonOptions {
     /// Approximate side of a cell [m], instead of the number of cells. Allowed: > 0.
     #[arg(long, value_name = "M", help_heading = "Box")]
     pub(super) cell_size: Option<f64>,
-    /// Left wall: a temperature [K], `insulated`, temperatures over time such as `0:300,60:350` (300 K at 0 s, 350 K at 60 s,
+    /// Left wall: a temperature [K] or with a unit, such as `80C`, `insulated`, temperatures over time such as `0:300,60:350` (300 K at 0 s, 350 K at 60 s,
     /// linear between them), a heat transfer coefficient [W/(m2 K)] and the temperature outside such as `h=200,T=300`, or a heat
     /// flux into the bed [W/m2] such as `q=500`. Allowed: temperatures of 0 to 1e5; with spheres the range of the gas (air 200 to 2000, helium
     /// 273 to 1800). Default: 50 K above the start; insulated if another wall is given.
@@ -60,9 +60,9 @@ pub struct CommonOptions {
     /// Top wall; values as for the left one. Default: insulated.
     #[arg(long, value_name = "WALL", value_parser = parse_wall, help_heading = "Walls and temperatures")]
     pub(super) top: Option<WallOverTime>,
-    /// Initial temperature of the whole bed [K]. Allowed: as for walls. Default: the coldest wall's if walls of
+    /// Initial temperature of the whole bed [K], or with a unit, such as 80C. Allowed: as for walls. Default: the coldest wall's if walls of
     /// different temperatures are given, else a usual one of the material.
-    #[arg(long, value_name = "K", help_heading = "Walls and temperatures")]
+    #[arg(long, value_name = "K", value_parser = temperature, help_heading = "Walls and temperatures")]
     pub(super) initial_temperature: Option<f64>,
     /// Heat released inside of the bed [W per m3 of bed]; negative for heat that is taken away. Allowed: -1e15 to 1e15.
     /// Default: 0.
@@ -129,8 +129,7 @@ impl CommonOptions {
     /// The errors of [`DiscCase::check`], when no case can be made from the choices.
     pub fn scene(&self, prompter: &Prompter) -> Result<DiscCase, CliError> {
         let model = self.model.as_deref().map_or_else(DiscModel::shipped, DiscModel::read)?;
-        let presets: Vec<&'static Preset> = PRESETS.iter().collect();
-        let (base, material, grains) = self.grains.ask(prompter, &presets)?;
+        let (base, material, grains) = self.grains.ask(prompter, &OF_DISCS)?;
         let (size, cells) = self.ask_box(prompter, grains.mean_radius)?;
         let proposal = coldest(self.given_walls()).unwrap_or(base.temperature);
         let initial_temperature = self.ask_initial(prompter, proposal, ranges::temperature)?;
@@ -168,8 +167,8 @@ impl CommonOptions {
         proposal: f64,
         check: impl Fn(&str, f64) -> Result<(), CaseError>,
     ) -> Result<f64, CliError> {
-        let help = "The whole bed has one temperature at the start. Temperatures are in Kelvin.";
-        let read = prompter.within(number, |&value| check("initial temperature", value));
+        let help = "The whole bed has one temperature at the start. Temperatures are in kelvin, or have a unit, such as 80C.";
+        let read = prompter.within(temperature, |&value| check("initial temperature", value));
         prompter.value(self.initial_temperature, help, "Temperature at the start [K]", &plain(proposal), read)
     }
 

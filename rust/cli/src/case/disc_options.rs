@@ -3,14 +3,16 @@
 use super::prompts::{Prompter, number};
 use crate::error::CliError;
 use clap::Args;
-use msdd_case::grains::{Grains, Preset, check_value, preset};
+use msdd_case::grains::{Grains, check_value};
+use msdd_case::material::{Material, Values};
 use msdd_case::numbers::plain;
 
 #[derive(Args)]
 pub struct GrainWishes {
-    /// Material of the grains (values and sources: `msdd case new --list-materials`). The options below replace single values
-    /// of it. Allowed: `paper`, `steel`, `glass`, `alumina`; with --spheres `steel`, `glass`, `alumina`,
-    /// `lithium-orthosilicate`. Default: `paper`, of spheres `steel`.
+    /// Material of the grains (values and sources: `msdd case new --list-materials`), or a file FILE.toml with the values of
+    /// another, which the same option prints. The options below replace single values of it. Allowed: `paper`, `steel`,
+    /// `glass`, `alumina`; with --spheres `steel`, `glass`, `alumina`, `lithium-orthosilicate`; a file. Default: `paper`, of
+    /// spheres `steel`.
     #[arg(long, value_name = "NAME", help_heading = "Grains")]
     material: Option<String>,
     /// Density of the grains [kg/m3]. Allowed: 1e-12 to 1e15. Default: from the material.
@@ -29,7 +31,7 @@ pub struct GrainWishes {
     #[arg(long, value_name = "1/K", help_heading = "Grains")]
     thermal_expansion: Option<f64>,
     /// Mean radius of the grains [m]. The radii of discs are uniformly distributed between 0.6 and 1.4 times this value;
-    /// spheres are equal. Allowed: 1e-12 to 1e15. Default: from the material.
+    /// those of spheres are equal unless --size-spread says otherwise. Allowed: 1e-12 to 1e15. Default: from the material.
     #[arg(long, value_name = "M", help_heading = "Grains")]
     mean_radius: Option<f64>,
     /// Mean diameter of the grains [m], instead of the radius. Allowed: 2e-12 to 2e15.
@@ -58,31 +60,31 @@ impl GrainWishes {
         self.mean_radius.or(self.diameter.map(|diameter| 0.5 * diameter))
     }
 
-    /// The named material of `presets` that was chosen first, the name of the material as changed by the user, and the grains.
+    /// The material that was chosen first, one of `named` or a file, the name of the material as changed by the user, and the grains.
     pub fn ask(
         &self,
         prompter: &Prompter,
-        presets: &[&'static Preset],
-    ) -> Result<(&'static Preset, String, Grains), CliError> {
+        named: &[Material],
+    ) -> Result<(Material, String, Grains), CliError> {
         let base = match &self.material {
-            Some(name) => preset(presets, name)?,
+            Some(name) => Material::find(named, name)?,
             None => {
                 let list: Vec<String> =
-                    presets.iter().map(|one| format!("  {:8} {}", one.name, one.about)).collect();
-                let help = format!("Material of the grains:\n{}", list.join("\n"));
-                let names: Vec<&str> = presets.iter().map(|one| one.name).collect();
-                let read = |text: &str| preset(presets, text).map_err(|_| names.join(", "));
-                prompter.value(None, &help, "Material", presets[0].name, read)?
+                    named.iter().map(|one| format!("  {:8} {}", one.name, one.about)).collect();
+                let help = format!("Material of the grains, or a file FILE.toml:\n{}", list.join("\n"));
+                let read = |text: &str| Material::find(named, text).map_err(|error| error.to_string());
+                let first = named.first().map_or("", |one| one.name.as_str());
+                prompter.value(None, &help, "Material", first, read)?
             }
         };
-        let own = Grains {
-            density: self.density.unwrap_or(base.grains.density),
-            young_modulus: self.young_modulus.unwrap_or(base.grains.young_modulus),
-            thermal_conductivity: self.thermal_conductivity.unwrap_or(base.grains.thermal_conductivity),
-            heat_capacity: self.heat_capacity.unwrap_or(base.grains.heat_capacity),
-            thermal_expansion: self.thermal_expansion.unwrap_or(base.grains.thermal_expansion),
-            mean_radius: self.given_radius().unwrap_or(base.grains.mean_radius),
-        };
+        let own = base.grains(&Values {
+            density: self.density,
+            young_modulus: self.young_modulus,
+            thermal_conductivity: self.thermal_conductivity,
+            heat_capacity: self.heat_capacity,
+            thermal_expansion: self.thermal_expansion,
+            mean_radius: self.given_radius(),
+        })?;
         let change = prompter.interactive
             && prompter.value(
                 None,
@@ -94,10 +96,12 @@ impl GrainWishes {
             )?;
         let asked = if change { self.ask_values(prompter, own)? } else { own };
         asked.check()?;
-        let material = if asked == base.grains {
+        // Of a file without some value every one is of the user.
+        let unchanged = base.grains(&Values::default()).unwrap_or(asked);
+        let material = if asked == unchanged {
             format!("{}: {}", base.name, base.about)
         } else {
-            let changed = asked.named().into_iter().zip(base.grains.named()).filter(|(a, b)| a.1 != b.1);
+            let changed = asked.named().into_iter().zip(unchanged.named()).filter(|(a, b)| a.1 != b.1);
             let names: Vec<&str> = changed.map(|(a, _)| a.0).collect();
             match names.len() {
                 6 => "grains of your own".to_string(),

@@ -7,12 +7,10 @@ use crate::error::CliError;
 use crate::progress::Progress;
 use clap::Args;
 use msdd_case::folder::{self, File, check_folder, files};
-use msdd_case::grains::{PRESETS, Preset};
-use msdd_case::numbers::plain;
+use msdd_case::material::{DISCS, SPHERES};
 use msdd_case::packing::{Effort, pack};
 use msdd_case::scene::DiscCase;
 use msdd_case::spheres;
-use msdd_case::spheres::material::MATERIALS;
 use msdd_case::values::packing_rows;
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
@@ -48,7 +46,7 @@ pub struct Arguments {
     /// Write into a folder that is not empty: files of the same name are replaced, all others stay.
     #[arg(long)]
     force: bool,
-    /// List the materials that can be named by --material, with their values and sources.
+    /// List the materials that can be named by --material, as files with their values and sources.
     #[arg(long)]
     list_materials: bool,
     /// A bed of equal spheres with gas between them, in a box or in a cylinder, with gravity and rough walls; else discs in
@@ -205,21 +203,13 @@ pub(crate) fn checkout(named: Option<&Path>) -> Result<PathBuf, CliError> {
     })
 }
 
+/// The files of the named materials: any of them may be the beginning of the user's own.
 fn list_materials() {
-    outln!("Discs");
-    for preset in &PRESETS {
-        list(preset, &[]);
-    }
-    outln!("\nSpheres (--spheres); their law is valid for a friction of 0.3");
-    for material in &MATERIALS {
-        list(&material.preset, &material.spheres().named());
-        outln!("    {:20} {:>10}", "emissivity", material.emissivity.text());
-    }
-}
-
-fn list(preset: &Preset, more: &[(&str, f64, &str)]) {
-    outln!("{}: {}", preset.name, preset.about);
-    for (key, value, unit) in preset.grains.named().iter().chain(more) {
-        outln!("    {key:20} {:>10} {unit}", plain(*value));
-    }
+    let print = |materials: &[(&str, &str)]| {
+        materials.iter().for_each(|(name, text)| outln!("\n# {name}\n{}", text.trim_end()));
+    };
+    outln!("# Discs");
+    print(&DISCS);
+    outln!("\n# Spheres (--spheres); their law is valid for a friction of 0.3");
+    print(&SPHERES);
 }

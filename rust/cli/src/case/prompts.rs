@@ -1,6 +1,7 @@
 //! Questions on the terminal, one line each; an empty answer takes the proposal.
 
 use crate::error::CliError;
+use msdd_beds::units::TEMPERATURE;
 use msdd_case::CaseError;
 use std::io::{self, BufRead};
 
@@ -75,6 +76,11 @@ impl Prompter {
 
 fn wrong(question: &str, value: &str, allowed: &str) -> CliError {
     CliError::Message(format!("{question} = {value}, allowed: {allowed}"))
+}
+
+/// A temperature \[K\], with or without a unit.
+pub fn temperature(text: &str) -> Read<f64> {
+    TEMPERATURE.parse(text)
 }
 
 /// Parses a finite number; its range is that of [`Prompter::within`].

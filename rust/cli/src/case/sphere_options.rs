@@ -1,14 +1,16 @@
 //! The user's choices for a new case of a bed of spheres: options beside those of all beds, and questions.
 
 use super::common_options::{CommonOptions, HOTTER, MechanicsName, WALL_HELP, coldest};
-use super::prompts::{Prompter, number};
+use super::prompts::{Prompter, number, temperature};
 use crate::error::CliError;
 use clap::{Args, ValueEnum};
 use msdd_beds::named_gases::GasName;
+use msdd_beds::property::Property;
+use msdd_case::material::OF_SPHERES;
 use msdd_case::numbers::{plain, rounded};
 use msdd_case::ranges;
 use msdd_case::scene::{Mechanics, parse_sides, parse_wall};
-use msdd_case::spheres::material::{Emissivity, MATERIALS, Spheres, presets};
+use msdd_case::spheres::material::Spheres;
 use msdd_case::spheres::scene::{
     BED_HAS, Flow, GRAVITY, Lid, Shell, SphereCase, check_porosity, check_pressure,
 };
@@ -17,6 +19,7 @@ use msdd_case::spheres::start::Gas;
 use msdd_case::spheres::wall::{self, WallMaterial};
 use msdd_case::values::describe;
 use msdd_case::walls::WallOverTime;
+use std::f64::consts::PI;
 
 /// Proposed porosity, of beds that were poured with a friction of 0.3, and pressure on the top [Pa].
 const POROSITY: f64 = 0.4;
@@ -64,6 +67,10 @@ pub struct SphereOptions {
     /// Emissivity of the surface of the spheres; 0: without radiation. Allowed: 0 to 1. Default: from the material.
     #[arg(long, value_name = "E", requires = "spheres")]
     emissivity: Option<f64>,
+    /// Standard deviation of the diameters over their mean, both weighted by surface, and --diameter is the mean (Sauter's).
+    /// Allowed: 0 (equal spheres) to 0.25. Default: 0.
+    #[arg(long, value_name = "W", requires = "spheres")]
+    size_spread: Option<f64>,
     /// Gas between the spheres, which must conduct less than they do. Allowed: `air`, `nitrogen`, `helium`, `argon`,
     /// `vacuum`. Default: `air`.
     #[arg(long, value_name = "NAME", value_parser = parse_gas, requires = "spheres")]
@@ -75,8 +82,8 @@ pub struct SphereOptions {
     /// Default: no flow.
     #[arg(long, value_name = "KG/S", requires = "spheres", requires = "flow_temperature")]
     flow: Option<f64>,
-    /// Temperature of the gas that flows in [K].
-    #[arg(long, value_name = "K", requires = "flow")]
+    /// Temperature of the gas that flows in [K], or with a unit.
+    #[arg(long, value_name = "K", value_parser = temperature, requires = "flow")]
     flow_temperature: Option<f64>,
     /// Where the gas flows in. Default: `top`.
     #[arg(long, value_enum, requires = "flow")]
@@ -178,10 +185,11 @@ impl SphereOptions {
         let gas = self.ask_gas(prompter)?;
         let known = |name: &str, value: f64| ranges::temperature_with(gas.name, name, value);
         let initial_temperature = common.ask_initial(prompter, coldest(&given).unwrap_or(usual), known)?;
+        let spheres = spheres.starting_at(initial_temperature);
         let read = prompter.within(parse_wall, |wall| ranges::wall(wall, |value| known("wall", value)));
         let flow = self.given_flow();
         let walls = ask_walls(prompter, &shape, given, initial_temperature, flow.is_some(), read)?;
-        let (porosity, pressure) = ask_start(common, prompter, spheres)?;
+        let (porosity, pressure) = ask_start(common, prompter, &spheres)?;
         let mechanics = common.ask_mechanics(prompter, MechanicsName::Equilibrium)?;
         let (lid, wall_friction, gravity) = self.ask_load(prompter, mechanics)?;
         let stays = lid == Lid::Stays && mechanics == Mechanics::Equilibrium;
@@ -226,20 +234,24 @@ impl SphereOptions {
         common: &CommonOptions,
         prompter: &Prompter,
     ) -> Result<(String, Spheres, f64), CliError> {
-        let (base, material, grains) = common.grains.ask(prompter, &presets())?;
-        let named = MATERIALS.iter().find(|material| material.preset.name == base.name);
-        let named = named.ok_or_else(|| wrong("material", base.name, "one of spheres"))?.spheres();
-        let spheres = Spheres {
-            grains,
-            poisson_ratio: self.poisson_ratio.unwrap_or(named.poisson_ratio),
-            roughness: self.roughness.unwrap_or(named.roughness),
-            hardness: self.hardness.unwrap_or(named.hardness),
-            emissivity: self.emissivity.map_or(named.emissivity, Emissivity::Constant),
-        };
+        let (base, material, grains) = common.grains.ask(prompter, &OF_SPHERES)?;
+        let mut own = base.clone();
+        own.poisson_ratio = self.poisson_ratio.or(own.poisson_ratio);
+        own.roughness = self.roughness.or(own.roughness);
+        own.hardness = self.hardness.or(own.hardness);
+        own.emissivity = self.emissivity.map(Property::Constant).or(own.emissivity);
+        let mut spheres = Spheres::of(&own, grains)?;
+        spheres.size_spread = self.size_spread.unwrap_or(0.0);
         spheres.check()?;
-        let changed = spheres.named().into_iter().zip(named.named()).filter(|(a, b)| a.1 != b.1);
-        let emissivity = (spheres.emissivity != named.emissivity).then_some("emissivity");
-        let changed: Vec<&str> = changed.map(|(a, _)| a.0).chain(emissivity).collect();
+        let options = [
+            ("poissonRatio", own.poisson_ratio != base.poisson_ratio),
+            ("roughness", own.roughness != base.roughness),
+            ("hardness", own.hardness != base.hardness),
+        ];
+        let changed = options.into_iter().filter(|(_, changed)| *changed);
+        let emissivity = (own.emissivity != base.emissivity).then_some("emissivity");
+        let sizes = (spheres.size_spread > 0.0).then_some("sizeSpread");
+        let changed: Vec<&str> = changed.map(|(key, _)| key).chain(emissivity).chain(sizes).collect();
         let material = match changed.is_empty() {
             true => material,
             false => format!("{material}; {} of your own", changed.join(", ")),
@@ -426,7 +438,7 @@ fn ask_walls(
 }
 
 /// Porosity and pressure on the top \[Pa\]. The pressure comes first, because the range of the porosity depends on it.
-fn ask_start(common: &CommonOptions, prompter: &Prompter, spheres: Spheres) -> Result<(f64, f64), CliError> {
+fn ask_start(common: &CommonOptions, prompter: &Prompter, spheres: &Spheres) -> Result<(f64, f64), CliError> {
     let pressure = prompter.value(
         common.pressure,
         "The pressure on the top of the bed at the start; contacts conduct as its cube root.",
@@ -438,7 +450,7 @@ fn ask_start(common: &CommonOptions, prompter: &Prompter, spheres: Spheres) -> R
         common.porosity,
         "The porosity at the start: 1 - volume of the spheres over the volume. Beds that were poured have 0.38 to 0.42.",
         "Porosity",
-        &plain(POROSITY),
+        &plain(rounded(1.0 - (1.0 - POROSITY) / spheres.equal_density(), 3)),
         prompter.within(number, |&value| check_porosity(spheres, pressure, value)),
     )?;
     Ok((porosity, pressure))
@@ -486,10 +498,16 @@ pub fn summary(scene: &SphereCase) -> Result<String, CliError> {
         true => format!("\nrigid walls: {}", wall::sentence(scene.wall_friction)),
         false => String::new(),
     };
+    let crushed = scene.spheres.crush_load.map_or(String::new(), |load| {
+        let (d, solid) = (2.0 * scene.spheres.radius(), 1.0 - scene.porosity);
+        let force = scene.pressure * PI * d * d / (solid * start.coordination);
+        let share = short(100.0 * force / load);
+        format!("\ncontacts under the top bear {} N in the mean, {share} % of the crush load", short(force))
+    });
     Ok(format!(
         "{} {} m, {} cells, about {} spheres; {}; {} K at the start; {} s\n\
          at the start the bed conducts {} W/(m K), {} across gas gaps ({}), {} across contacts and {} by radiation, with \
-         {} contacts per sphere{friction}",
+         {} contacts per sphere{friction}{crushed}",
         scene.shape.name(),
         lengths.join(" x "),
         cells.join(" x "),

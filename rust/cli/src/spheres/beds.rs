@@ -7,6 +7,7 @@ use crate::error::CliError;
 use msdd_beds::dem_case::{DemCase, FILE, file_in};
 use msdd_beds::effective::BedMaterial;
 use msdd_beds::packings::column;
+use msdd_beds::sizes::equal_density;
 use msdd_beds::solid::Solid;
 use msdd_files::{list, read_text};
 use msdd_spheres::law::effective_modulus;
@@ -105,6 +106,7 @@ pub fn track(
     let states: Vec<Vec<f64>> = STATE.iter().map(values).collect::<Result<_, _>>()?;
     let temperatures = values(&"T_mean")?;
     let modulus = effective_modulus(grains.young_modulus, grains.poisson_ratio);
+    let density = equal_density(grains.moments().spread);
     let mobilised = FirstRow::read(file)?.mobilised;
     let gas_along = |temperature: f64, conductivity: f64| {
         let solid = Solid {
@@ -128,7 +130,7 @@ pub fn track(
             std::array::from_fn(|column| states[column][k]);
         let along = conductivity / grains.conductivity.at(temperatures[k]);
         Point {
-            solid: 1.0 - porosity,
+            solid: density * (1.0 - porosity),
             stress: diagonal([a, b, c].map(|stress| stress / modulus)),
             contact: diagonal([f64::NAN, f64::NAN, along]),
             gas: [f64::NAN; 3],

@@ -115,7 +115,7 @@ impl<'a> Reader<'a> {
         let heat_source = self.heat_source(porosity)?;
         self.left_out()?;
         if grains.sizes.is_some() {
-            let note = "sizes: the case has sizeSpread alone; uniform diameters of that standard deviation are taken";
+            let note = "sizes: the case has sizeSpread alone; a log-normal distribution of it is taken";
             self.notes.push(note.to_string());
         }
         Ok(DemCase {
@@ -159,12 +159,6 @@ impl<'a> Reader<'a> {
         Ok(field.mean("internalField")?)
     }
 
-    /// A distribution with this standard deviation over the mean; none of equal spheres.
-    fn sizes(spread: f64) -> Option<Sizes> {
-        let width = rounded(3f64.sqrt() * spread, DIGITS);
-        (spread > 0.0).then(|| Sizes::Uniform([rounded(1.0 - width, DIGITS), rounded(1.0 + width, DIGITS)]))
-    }
-
     /// All but the number of the spheres and the friction of the walls.
     fn grains(&self) -> Result<Grains, CliError> {
         let (of, spheres) = (&self.properties, self.spheres()?);
@@ -178,6 +172,7 @@ impl<'a> Reader<'a> {
         let (roughness, hardness) =
             (Self::number(spheres, "roughness", 0.0)?, Self::number(spheres, "hardness", 0.0)?);
         let expansion = Self::number(of, "thermalExpansion", 0.0)?;
+        let spread = Self::number(spheres, "sizeSpread", 0.0)?;
         let radiates = !spheres.text("radiation").is_ok_and(|on| on == "off");
         let emissivity = match spheres.get("emissivity") {
             Some(_) if radiates => Some(over_temperature(spheres, "emissivity")?),
@@ -200,7 +195,7 @@ impl<'a> Reader<'a> {
             yield_stress: None,
             emissivity: emissivity.filter(|given| *given != Property::Constant(0.0)),
             rays: None,
-            sizes: Self::sizes(Self::number(spheres, "sizeSpread", 0.0)?),
+            sizes: (spread > 0.0).then(|| Sizes::of_spread(spread)),
             thermal_expansion: (expansion > 0.0).then_some(expansion),
         })
     }
