@@ -225,7 +225,7 @@ impl Class {
         let ([from, below], [to, passes]) = (rows[0], rows[1]);
         // ∫ dd/d³ over to − from.
         let per_mass = 0.5 * (from + to) / (from * from * to * to);
-        (passes > below).then(|| Self { from, to, number: (passes - below) * per_mass })
+        (passes > below).then_some(Self { from, to, number: (passes - below) * per_mass })
     }
 
     /// The diameter below which there are so many spheres.

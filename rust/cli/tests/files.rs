@@ -98,11 +98,7 @@ fn a_full_disk_leaves_the_old_file_and_no_part() {
     assert_eq!(std::fs::read(folder.join("a.json")).unwrap(), old);
     good(&folder, &format!("{GENERATE} a"));
     refused(&folder, &format!("trap '' XFSZ; ulimit -f 1; {GENERATE} b"), "cannot write b/packing-");
-    refused(
-        &folder,
-        &format!("trap '' XFSZ; ulimit -f 1; $msdd database export a --out c.csv"),
-        "cannot write ",
-    );
+    refused(&folder, "trap '' XFSZ; ulimit -f 1; $msdd database export a --out c.csv", "cannot write ");
     for kept in [&folder, &folder.join("b")] {
         assert!(names(kept).iter().all(|name| !name.ends_with(".part")), "{:?}", names(kept));
     }

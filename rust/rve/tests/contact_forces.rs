@@ -11,6 +11,7 @@ const LARGE: f64 = 3.5;
 fn boxed(friction: f64, pressure: f64, seed: u64) -> Simulation {
     let preparation = Preparation {
         spheres: 600,
+        sizes: None,
         seed,
         poisson_ratio: 0.25,
         restitution: 0.3,

@@ -173,7 +173,7 @@ impl Packing<'_> {
     fn rows(&self, place: &Path, checkout: &Path) -> Result<Vec<(Quantity, Vec<Row>)>, CliError> {
         let failed = |error: ChoiceError| CliError::Message(error.to_string());
         let start = FirstRow::read(self.file)?;
-        let geometry = Geometry::new(&file_in(&self.folder), self.bed, start.depth)?;
+        let geometry = Geometry::new(&file_in(self.folder), self.bed, start.depth)?;
         folder::write(place, &foam::files(self.folder, self.bed, &start, "bed", checkout)?)?;
         solve(place, checkout).map_err(CliError::Message)?;
         let mut scene = UserCase::read(place).map_err(failed)?;
