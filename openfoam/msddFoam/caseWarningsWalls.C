@@ -84,7 +84,7 @@ static bool isSmooth(const dictionary& wall)
 {
     const word type(wall.getOrDefault<word>("type", "rigid"));
     const scalar friction = wall.getOrDefault<scalar>("friction", 0);
-    return type == "frictionless" || type == "shell"
+    return type == "frictionless" || (type == "shell" && friction == 0)
      || (type == "rigid" && wall.found("friction") && friction == 0);
 }
 
@@ -292,7 +292,8 @@ void Foam::caseWarnings::checkSides()
     add
     (
         text + brief(100*share) + " % of a load on top (Janssen's estimate)."
-        " Rigid walls can have friction: see walls of equilibriumCoeffs"
+        " Rigid walls and shells can have friction: see walls of"
+        " equilibriumCoeffs"
     );
 }
 

@@ -144,18 +144,13 @@ Foam::granularMechanicsModels::equilibrium::equilibrium
         pointMesh::New(mesh_),
         dimensionedVector(dimVelocity, Zero)
     ),
-    wallTraction_
-    (
-        io("wallTraction", read_),
-        pointMesh::New(mesh_),
-        dimensionedVector(dimPressure, Zero)
-    ),
     wallGive_
     (
         io("wallGive", read_),
         pointMesh::New(mesh_),
         dimensionedVector(dimLength, Zero)
     ),
+    wallTractions_(wallConditions::sides),
     initialStress_
     (
         io("initialStress", read_),
@@ -178,8 +173,9 @@ Foam::granularMechanicsModels::equilibrium::equilibrium
     u_(nodes_.dim()*nodes_.size(), Zero),
     velocity_(u_),
     velocityBefore_(u_),
-    traction_(u_),
     give_(u_),
+    traction_(nodes_.dim()*walls_.rubbing(), Zero),
+    shellSlide_(traction_),
     gravity_(properties.gravity()),
     weight_(u_),
     volumeForce_(u_),
@@ -187,9 +183,9 @@ Foam::granularMechanicsModels::equilibrium::equilibrium
     nodeSize_(nodes_.size(), Zero),
     lastTime_(mesh_.time().value()),
     friction_(u_),
-    newTraction_(u_),
+    newTraction_(traction_),
     coupled_(false),
-    slide_(u_),
+    slide_(traction_),
     share_(1),
     r_(u_),
     before_(0),
@@ -226,8 +222,8 @@ Foam::granularMechanicsModels::equilibrium::equilibrium
     {
         nodeVelocityBefore_.writeOpt() = IOobject::NO_WRITE;
     }
-    readNodes(wallTraction_, traction_);
     readNodes(wallGive_, give_);
+    makeFrictionFields();
     // Where 'slackLayer' was taken out at a restart, what was given stays
     if (!walls_.gives() && !(gMax(mag(wallGive_.primitiveField())()) > 0))
     {
@@ -552,6 +548,77 @@ void Foam::granularMechanicsModels::equilibrium::writeNodes
                 values[pointi] += from[dim*node + k]*along[k];
             }
         }
+    }
+}
+
+
+void Foam::granularMechanicsModels::equilibrium::makeFrictionFields()
+{
+    const auto make = [this](const word& name, const dimensionSet& dims)
+    {
+        return new pointVectorField
+        (
+            io(name, read_),
+            pointMesh::New(mesh_),
+            dimensionedVector(dims, Zero)
+        );
+    };
+    typedef wallConditions::side side;
+    forAll(wallTractions_, i)
+    {
+        // That of walls which hold also shows where there is none
+        if (side(i) == side::held || walls_.rough(side(i)))
+        {
+            wallTractions_.set
+            (
+                i, make(wallConditions::tractionNames[i], dimPressure)
+            );
+        }
+    }
+    if (walls_.shellsSlide())
+    {
+        shellMotion_.reset(make("shellMotion", dimLength));
+    }
+    readFriction();
+}
+
+
+void Foam::granularMechanicsModels::equilibrium::readFriction()
+{
+    typedef wallConditions::side side;
+    nodeField values(u_.size(), Zero);
+    forAll(wallTractions_, i)
+    {
+        if (wallTractions_.set(i))
+        {
+            readNodes(wallTractions_[i], values);
+            walls_.fromNodes(side(i), values, traction_);
+        }
+    }
+    if (shellMotion_.valid())
+    {
+        readNodes(shellMotion_(), values);
+        walls_.fromNodes(side::shell, values, shellSlide_);
+    }
+}
+
+
+void Foam::granularMechanicsModels::equilibrium::writeFriction()
+{
+    typedef wallConditions::side side;
+    nodeField values(u_.size(), Zero);
+    forAll(wallTractions_, i)
+    {
+        if (wallTractions_.set(i))
+        {
+            walls_.toNodes(side(i), traction_, values);
+            writeNodes(values, wallTractions_[i]);
+        }
+    }
+    if (shellMotion_.valid())
+    {
+        walls_.toNodes(side::shell, shellSlide_, values);
+        writeNodes(values, shellMotion_());
     }
 }
 

@@ -90,8 +90,8 @@ void Foam::granularMechanicsModels::equilibrium::makeFields()
     writeNodes(u_, nodeDisplacement_);
     writeNodes(velocity_, nodeVelocity_);
     writeNodes(velocityBefore_, nodeVelocityBefore_);
-    writeNodes(traction_, wallTraction_);
     writeNodes(give_, wallGive_);
+    writeFriction();
     if (mesh_.time().writeTime() && mesh_.time().timeIndex() != written_)
     {
         written_ = mesh_.time().timeIndex();
@@ -105,8 +105,8 @@ void Foam::granularMechanicsModels::equilibrium::takeNodes()
     readNodes(nodeDisplacement_, u_);
     readNodes(nodeVelocity_, velocity_);
     readNodes(nodeVelocityBefore_, velocityBefore_);
-    readNodes(wallTraction_, traction_);
     readNodes(wallGive_, give_);
+    readFriction();
     placed_ = false;
     findMetric();
 }

@@ -229,7 +229,7 @@ Foam::scalar Foam::granularMechanicsModels::equilibrium::imbalance
         return GREAT;
     }
 
-    nodeField inner(u_.size(), Zero), outer(inner), slip(du - slide_);
+    nodeField inner(u_.size(), Zero), outer(inner);
     addStress(law_->stress(), inner);
     addUnfitted(du, inner);
     walls_.addPressure(mesh_.time().value(), now, outer);
@@ -237,7 +237,7 @@ Foam::scalar Foam::granularMechanicsModels::equilibrium::imbalance
     nodes_.sum(inner);
     walls_.friction
     (
-        law_->stress(), now, slip, traction_, friction_, newTraction_
+        law_->stress(), now, du, slide_, traction_, friction_, newTraction_
     );
 
     onWalls_ = friction_ + volumeForce_ - inner;
@@ -519,7 +519,8 @@ bool Foam::granularMechanicsModels::equilibrium::leaveWalls
 bool Foam::granularMechanicsModels::equilibrium::advance(const label parts)
 {
     const scalar time = mesh_.time().value();
-    const nodeField u(u_), traction(traction_), given(give_);
+    const nodeField u(u_), given(give_);
+    const scalarField traction(traction_);
     const nodeField way(walls_.way(time, nodeField(u_ - give_)));
     if (leaves())
     {
@@ -533,6 +534,12 @@ bool Foam::granularMechanicsModels::equilibrium::advance(const label parts)
     }
     granularState::snapshot before;
     slide_ = walls_.slide(lastTime_, time);
+    scalarField shellSlide;
+    if (walls_.shellsSlide())
+    {
+        shellSlide = walls_.shellSlide();
+        slide_ += shellSlide - shellSlide_;
+    }
     share_ = 1;
     notGiven_ = false;
     ignored_ = 0;
@@ -550,9 +557,9 @@ bool Foam::granularMechanicsModels::equilibrium::advance(const label parts)
     if (parts > 1)
     {
         before = grains_.saveState();
-        const nodeField slide(slide_);
+        const scalarField slide(slide_);
         slide_ = 0;
-        imbalance(slide_, false);
+        imbalance(nodeField(u_.size(), Zero), false);
         initialResidual_ = r_;
         slide_ = slide/parts;
     }
@@ -591,6 +598,10 @@ bool Foam::granularMechanicsModels::equilibrium::advance(const label parts)
             velocityBefore_ = velocity_;
         }
         velocity_ = (u_ - u)/(time - lastTime_);
+    }
+    if (walls_.shellsSlide())
+    {
+        shellSlide_ = shellSlide;
     }
     lastTime_ = time;
     return true;

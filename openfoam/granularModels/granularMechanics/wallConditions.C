@@ -57,6 +57,12 @@ Foam::wallConditions::kindNames
     { kind::shell, "shell" }
 });
 
+const Foam::FixedList<Foam::word, Foam::wallConditions::sides>
+Foam::wallConditions::tractionNames
+({
+    "wallTraction", "shellTraction", "pistonTraction"
+});
+
 const Foam::keyTable Foam::wallConditions::keys
 (
     "walls",
@@ -72,25 +78,27 @@ const Foam::keyTable Foam::wallConditions::keys
             " after a large slip; after a slip s it is friction s/(s + `slip`)."
             " Spheres also roll along a wall: see [rough"
             " walls](../quality/spheres.md#rough-walls)", "-", "0 to 10",
-            "of discs from the model; of spheres and with `law elastic` 0",
-            "rigid"
+            "of discs at `rigid` walls from the model; else 0",
+            "rigid or shell or piston"
         },
         {
             "slip", "slip at which half of `friction` is reached", "m",
             "2e-7 r to 2000 r",
-            "of discs from the model; else required with `friction`", "rigid"
+            "of discs from the model; else required with `friction`",
+            "rigid or shell or piston"
         },
         {
             "layer",
             "width of the layer along a wall with friction whose grains are"
-            " stronger", "m", "0 to 1e6 r", "13 r", "rigid"
+            " stronger", "m", "0 to 1e6 r", "13 r", "rigid or shell or piston"
         },
         {
             "layerStrength",
             "factor of the deviator at which grains in this layer slide past"
             " each other, because a shear band finds little space there. Not"
             " used with the initial field `strength`", "-", "0.1 to 3",
-            "of discs `friction`/0.3, from 1 to 3; of spheres 1", "rigid"
+            "of discs `friction`/0.3, from 1 to 3; of spheres 1",
+            "rigid or shell or piston"
         },
         {
             "displacement",
@@ -148,6 +156,18 @@ const Foam::keyTable Foam::wallConditions::keys
             "temperature",
             "temperature of the wall at which it has its initial place", "K",
             "any", "required with `thermalExpansion` above 0", "shell"
+        },
+        {
+            "fixedPoint",
+            "a point where the wall stays as it expands along its axis, past"
+            " grains that rub on it: where the vessel stands", "m", "a vector",
+            "in wedges and in space required with `friction` and"
+            " `thermalExpansion` above 0", "shell"
+        },
+        {
+            "axis", "direction of its axis; in a wedge that of the mesh", "-",
+            "a vector that is not 0", "in space required with `fixedPoint`",
+            "shell"
         }
     }
 );
@@ -289,32 +309,18 @@ void Foam::wallConditions::read
     w.type = kindNames.getOrDefault("type", dict, kind::rigid);
     checkKeysOfType(dict, patch.name(), w.type);
 
-    if (w.type == kind::rigid)
+    if
+    (
+        w.type == kind::rigid || w.type == kind::shell
+     || w.type == kind::piston
+    )
     {
-        scalar limit = 0, slip = radius_;
-        const bool known =
-            elastic_ ? !dict.found("friction") : model.wallFriction(limit, slip);
-        w.friction = keys.number(dict, "friction", limit);
-        if (!known && !(dict.found("friction") && dict.found("slip")))
-        {
-            FatalIOErrorInFunction(walls)
-                << "Patch " << patch.name() << " needs entries 'friction' and"
-                << " 'slip': the model has no friction at walls"
-                << exit(FatalIOError);
-        }
-        w.slip = keys.number(dict, "slip", slip, radius_);
-        w.layer =
-            keys.number(dict, "layer", keys.usual("layer")*radius_, radius_);
-        w.layerStrength = keys.number
-        (
-            dict,
-            "layerStrength",
-            known ? max(scalar(1), min(scalar(3), w.friction/usualRatio)) : 1
-        );
+        readFriction(dict, model, patch.name(), w);
     }
     if (w.type == kind::shell)
     {
         readShell(dict, w);
+        readAxis(dict, w);
     }
     else if (w.presses())
     {
@@ -325,6 +331,39 @@ void Foam::wallConditions::read
         w.displacement = Function1<vector>::New("displacement", dict);
     }
     readGive(dict, w);
+}
+
+
+void Foam::wallConditions::readFriction
+(
+    const dictionary& dict,
+    const granularModel& model,
+    const word& name,
+    wall& w
+) const
+{
+    scalar limit = 0, slip = radius_;
+    bool known = !dict.found("friction");
+    if (!elastic_ && (w.type == kind::rigid || !known))
+    {
+        known = model.wallFriction(limit, slip);
+    }
+    w.friction = keys.number(dict, "friction", limit);
+    if (!known && !(dict.found("friction") && dict.found("slip")))
+    {
+        FatalIOErrorInFunction(dict)
+            << "Patch " << name << " needs entries 'friction' and"
+            << " 'slip': the model has no friction at walls"
+            << exit(FatalIOError);
+    }
+    w.slip = keys.number(dict, "slip", slip, radius_);
+    w.layer = keys.number(dict, "layer", keys.usual("layer")*radius_, radius_);
+    w.layerStrength = keys.number
+    (
+        dict,
+        "layerStrength",
+        known ? max(scalar(1), min(scalar(3), w.friction/usualRatio)) : 1
+    );
 }
 
 

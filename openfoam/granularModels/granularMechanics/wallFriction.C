@@ -21,19 +21,24 @@ License
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-void Foam::wallConditions::findRubbing()
+void Foam::wallConditions::findRubbing
+(
+    const side on,
+    DynamicList<label>& rubbing,
+    DynamicList<label>& ways,
+    DynamicList<scalar>& along,
+    DynamicList<scalar>& half,
+    DynamicList<scalar>& number
+)
 {
     const label dim = mesh_.dim(), size = mesh_.size();
     scalarField slip(size, Zero), count(size, Zero);
-    rubs_ = labelList(size, -1);
-
     forAll(walls_, patchi)
     {
         const wall& w = walls_[patchi];
-        const elementMesh::wallFaces& faces = mesh_.wall(patchi);
-        if (w.friction > 0)
+        if (w.friction > 0 && w.on() == on)
         {
-            for (const label node : faces.nodes)
+            for (const label node : mesh_.wall(patchi).nodes)
             {
                 slip[node] += w.slip;
                 count[node] += 1;
@@ -42,9 +47,6 @@ void Foam::wallConditions::findRubbing()
     }
     mesh_.sum(slip, 1);
     mesh_.sum(count, 1);
-
-    DynamicList<label> rubbing, ways;
-    DynamicList<scalar> along, half, number;
     const across beside
     (
         findAcross
@@ -54,7 +56,11 @@ void Foam::wallConditions::findRubbing()
                 mesh_,
                 chosen
                 (
-                    [](const wall& w) { return w.holdsAcross() || w.springs(); }
+                    [on](const wall& w)
+                    {
+                        const bool own = w.friction > 0 && w.on() == on;
+                        return w.holdsAcross() || w.springs() || own;
+                    }
                 )
             )
         )
@@ -66,7 +72,7 @@ void Foam::wallConditions::findRubbing()
         {
             continue;
         }
-        rubs_[node] = rubbing.size();
+        rubs_[label(on)][node] = rubbing.size();
         rubbing.append(node);
         ways.append(dim - held);
         for (label k = held; k < held + dim - 1; ++k)
@@ -79,6 +85,30 @@ void Foam::wallConditions::findRubbing()
         half.append(slip[node]/count[node]);
         number.append(count[node]);
     }
+}
+
+
+void Foam::wallConditions::findRubbing()
+{
+    const label dim = mesh_.dim();
+    DynamicList<label> rubbing, ways;
+    DynamicList<scalar> along, half, number;
+    for (const side on : {side::held, side::shell, side::piston})
+    {
+        const label k = label(on);
+        firstRubbing_[k] = rubbing.size();
+        rubs_[k] = labelList(mesh_.size(), -1);
+        rough_[k] = false;
+        for (const wall& w : walls_)
+        {
+            rough_[k] = rough_[k] || (w.friction > 0 && w.on() == on);
+        }
+        if (rough_[k])
+        {
+            findRubbing(on, rubbing, ways, along, half, number);
+        }
+    }
+    firstRubbing_[sides] = rubbing.size();
     slipNodes_ = rubbing;
     nTangents_ = ways;
     tangents_ = scalarField(along);
@@ -102,20 +132,28 @@ void Foam::wallConditions::sumRubbing
     {
         return;
     }
-    scalarField all(each*mesh_.size(), Zero);
-    forAll(slipNodes_, i)
+    for (label on = 0; on < sides; ++on)
     {
-        for (label k = 0; k < each; ++k)
+        if (!rough_[on])
         {
-            all[each*slipNodes_[i] + k] = values[each*i + k];
+            continue;
         }
-    }
-    mesh_.sum(all, each);
-    forAll(slipNodes_, i)
-    {
-        for (label k = 0; k < each; ++k)
+        scalarField all(each*mesh_.size(), Zero);
+        const label begin = firstRubbing_[on], end = firstRubbing_[on + 1];
+        for (label i = begin; i < end; ++i)
         {
-            values[each*i + k] = all[each*slipNodes_[i] + k];
+            for (label k = 0; k < each; ++k)
+            {
+                all[each*slipNodes_[i] + k] = values[each*i + k];
+            }
+        }
+        mesh_.sum(all, each);
+        for (label i = begin; i < end; ++i)
+        {
+            for (label k = 0; k < each; ++k)
+            {
+                values[each*i + k] = all[each*slipNodes_[i] + k];
+            }
         }
     }
 }
@@ -161,8 +199,8 @@ void Foam::wallConditions::findLimits
             mesh_.faceWeights(at, nodes, count, weights.data());
             for (label a = 0; a < count; ++a)
             {
-                const label index = rubs_[nodes[a]];
-                if (index < 0)
+                const label index = rubs_[label(w.on())][nodes[a]];
+                if (index < 0 || leftAcross(nodes[a], n))
                 {
                     continue;
                 }
@@ -202,13 +240,12 @@ void Foam::wallConditions::rubOneWay
     scalar* share
 )
 {
-    const label dim = mesh_.dim(), node = slipNodes_[i];
+    const label dim = mesh_.dim();
     const scalar* t = tangents_.cdata() + dim*(dim - 1)*i;
-    const scalar before =
-        -component(oldTraction, node, t)*length_[i]/limit_[i];
+    const scalar before = -component(oldTraction, i, t)*length_[i]/limit_[i];
     const coulombFriction::line m
     (
-        coulombFriction::along(before, component(slip, node, t), slip_[i])
+        coulombFriction::along(before, component(slip, i, t), slip_[i])
     );
     const scalar grip =
         (mag(before) < coulombFriction::all ? m.memory*before : 0) - m.share;
@@ -234,7 +271,7 @@ void Foam::wallConditions::rubTwoWays
     const vector a(t[0], t[1], t[2]), b(t[3], t[4], t[5]);
     const auto within = [&](const scalarField& values)
     {
-        return component(values, node, t)*a + component(values, node, t + 3)*b;
+        return component(values, i, t)*a + component(values, i, t + 3)*b;
     };
     const coulombFriction::plane m
     (
@@ -264,51 +301,88 @@ void Foam::wallConditions::rubTwoWays
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
-Foam::scalarField Foam::wallConditions::slide
+void Foam::wallConditions::toNodes
 (
-    const scalar before,
-    const scalar time
+    const side on,
+    const scalarField& rubbing,
+    scalarField& nodes
+) const
+{
+    const label dim = mesh_.dim(), k = label(on);
+    nodes.resize(dim*mesh_.size());
+    nodes = 0;
+    for (label i = firstRubbing_[k]; i < firstRubbing_[k + 1]; ++i)
+    {
+        for (label j = 0; j < dim; ++j)
+        {
+            nodes[dim*slipNodes_[i] + j] = rubbing[dim*i + j];
+        }
+    }
+}
+
+
+void Foam::wallConditions::fromNodes
+(
+    const side on,
+    const scalarField& nodes,
+    scalarField& rubbing
+) const
+{
+    const label dim = mesh_.dim(), k = label(on);
+    for (label i = firstRubbing_[k]; i < firstRubbing_[k + 1]; ++i)
+    {
+        for (label j = 0; j < dim; ++j)
+        {
+            rubbing[dim*i + j] = nodes[dim*slipNodes_[i] + j];
+        }
+    }
+}
+
+
+Foam::scalarField Foam::wallConditions::meanAlong
+(
+    std::function<bool(const wall&)> choose,
+    std::function<vector(const label, const label)> motion
 ) const
 {
     const label dim = mesh_.dim();
-    scalarField result(dim*mesh_.size(), Zero);
-    scalarField motion((dim - 1)*slipNodes_.size(), Zero);
+    scalarField result(dim*slipNodes_.size(), Zero);
+    scalarField sum((dim - 1)*slipNodes_.size(), Zero);
     bool moving = false;
     forAll(walls_, patchi)
     {
         const wall& w = walls_[patchi];
-        if (w.friction > 0 && w.displacement.valid())
+        if (!(w.friction > 0 && choose(w)))
         {
-            moving = true;
-            const vector d
-            (
-                w.displacement().value(time) - w.displacement().value(before)
-            );
-            for (const label node : mesh_.wall(patchi).nodes)
+            continue;
+        }
+        moving = true;
+        const labelList& nodes = mesh_.wall(patchi).nodes;
+        forAll(nodes, at)
+        {
+            const label i = rubs_[label(w.on())][nodes[at]];
+            const vector d(i < 0 ? vector(Zero) : motion(patchi, at));
+            for (label j = 0; i >= 0 && j < nTangents_[i]; ++j)
             {
-                const label i = rubs_[node];
-                for (label j = 0; i >= 0 && j < nTangents_[i]; ++j)
+                const label way = (dim - 1)*i + j;
+                for (label k = 0; k < dim; ++k)
                 {
-                    const label way = (dim - 1)*i + j;
-                    for (label k = 0; k < dim; ++k)
-                    {
-                        motion[way] += tangents_[dim*way + k]*d[k];
-                    }
+                    sum[way] += tangents_[dim*way + k]*d[k];
                 }
             }
         }
     }
     if (moving)
     {
-        sumRubbing(motion, dim - 1);
+        sumRubbing(sum, dim - 1);
         forAll(slipNodes_, i)
         {
             for (label way = (dim - 1)*i; way < (dim - 1)*i + nTangents_[i]; ++way)
             {
                 for (label k = 0; k < dim; ++k)
                 {
-                    result[dim*slipNodes_[i] + k] +=
-                        motion[way]/faces_[i]*tangents_[dim*way + k];
+                    result[dim*i + k] +=
+                        sum[way]/faces_[i]*tangents_[dim*way + k];
                 }
             }
         }
@@ -317,11 +391,36 @@ Foam::scalarField Foam::wallConditions::slide
 }
 
 
+Foam::scalarField Foam::wallConditions::slide
+(
+    const scalar before,
+    const scalar time
+) const
+{
+    vectorField motions(walls_.size(), Zero);
+    forAll(walls_, patchi)
+    {
+        const wall& w = walls_[patchi];
+        if (w.friction > 0 && w.displacement.valid())
+        {
+            motions[patchi] =
+                w.displacement().value(time) - w.displacement().value(before);
+        }
+    }
+    return meanAlong
+    (
+        [](const wall& w) { return w.displacement.valid(); },
+        [&](const label patchi, const label) { return motions[patchi]; }
+    );
+}
+
+
 void Foam::wallConditions::friction
 (
     const List<scalarField>& stress,
     const scalarField& at,
-    const scalarField& slip,
+    const scalarField& motion,
+    const scalarField& slide,
     const scalarField& oldTraction,
     scalarField& force,
     scalarField& traction
@@ -335,12 +434,17 @@ void Foam::wallConditions::friction
     returns_.clear();
     normalCoupling_ = 0;
     const label dim = mesh_.dim();
+    scalarField slip(dim*slipNodes_.size());
 
     forAll(slipNodes_, i)
     {
         if (limit_[i] <= VSMALL)
         {
             continue;
+        }
+        for (label k = dim*i; k < dim*(i + 1); ++k)
+        {
+            slip[k] = motion[dim*slipNodes_[i] + k % dim] - slide[k];
         }
         scalar share[3];
         if (nTangents_[i] == 1)
@@ -353,9 +457,9 @@ void Foam::wallConditions::friction
         }
         for (label k = 0; k < dim; ++k)
         {
-            const label to = dim*slipNodes_[i] + k;
-            force[to] = -share[k]*limit_[i];
-            traction[to] = force[to]/length_[i];
+            const scalar f = -share[k]*limit_[i];
+            force[dim*slipNodes_[i] + k] += f;
+            traction[dim*i + k] = f/length_[i];
         }
     }
 }
@@ -385,7 +489,7 @@ void Foam::wallConditions::setStiffness(const scalar pressure)
                 {
                     square += sqr(weights[dim*a + k]);
                 }
-                const label index = rubs_[nodes[a]];
+                const label index = rubs_[label(w.on())][nodes[a]];
                 for (label j = 0; index >= 0 && j < nTangents_[index]; ++j)
                 {
                     stiffness_[(dim - 1)*index + j] +=

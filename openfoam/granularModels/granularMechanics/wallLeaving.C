@@ -25,6 +25,10 @@ namespace Foam
 //- of the normal
 static const scalar parallel = 1 - 1e-9;
 
+//- The same up to which a face belongs to a wall with this normal: its faces
+//- differ from it by less than 45 degrees (see smoothWalls)
+static const scalar about = 0.7;
+
 //- Distance from a wall over the mean radius above which grains have left it
 static const scalar apart = 1e-6;
 
@@ -38,16 +42,16 @@ void Foam::wallConditions::findPushing()
     const label dim = mesh_.dim();
     pushes_.resize(allBasis_.size()/dim, Zero);
     left_.resize(pushes_.size(), false);
-    labelList index(mesh_.size(), -1);
+    holds_.resize(mesh_.size(), -1);
     forAll(constrainedNodes_, i)
     {
-        index[constrainedNodes_[i]] = i;
+        holds_[constrainedNodes_[i]] = i;
     }
     // Exactly one unit normal along the direction: no plane of symmetry, no
     // axis, no opposite wall
     for (label wall = 0; wall < holding_->size(); ++wall)
     {
-        const label node = holding_->node(wall), i = index[node];
+        const label node = holding_->node(wall), i = holds_[node];
         for (label k = 0; k < allDirections_[i]; ++k)
         {
             const scalar* e = allBasis_.cdata() + dim*(dim*i + k);
@@ -94,6 +98,28 @@ void Foam::wallConditions::holdOthers()
             directions_[i] = held ? to : directions_[i];
         }
     }
+}
+
+
+bool Foam::wallConditions::leftAcross
+(
+    const label node,
+    const scalar* normal
+) const
+{
+    const label dim = mesh_.dim(), i = holds_[node];
+    bool left = false;
+    for (label k = 0; i >= 0 && k < allDirections_[i]; ++k)
+    {
+        const scalar* e = allBasis_.cdata() + dim*(dim*i + k);
+        scalar along = 0;
+        for (label j = 0; j < dim; ++j)
+        {
+            along += e[j]*normal[j];
+        }
+        left = left || (left_[dim*i + k] && mag(along) > about);
+    }
+    return left;
 }
 
 

@@ -31,7 +31,8 @@ void Foam::granularState::findReaders()
     ({
         "conductivity", "stress", "pressure", "particleDensity", "inTrainingRange",
         "spread", "thermalStrain", "D", "nodeDisplacement", "nodeVelocity",
-        "nodeVelocityBefore", "wallTraction", "wallGive", "areaRatio"
+        "nodeVelocityBefore", "wallTraction", "shellTraction",
+        "pistonTraction", "shellMotion", "wallGive", "areaRatio"
     });
     const dictionary functions =
         mesh_.time().controlDict().subOrEmptyDict("functions");

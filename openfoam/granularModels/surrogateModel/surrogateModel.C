@@ -111,8 +111,21 @@ static const keyTable ownFields
             "restart, out"
         },
         {
-            "wallTraction", "friction force of walls per area", "Pa", "any",
-            "restart, out"
+            "wallTraction",
+            "friction force per area of walls but shells and pistons", "Pa",
+            "any", "restart, out"
+        },
+        {
+            "shellTraction", "the same of shells, if they have friction", "Pa",
+            "any", "restart, out"
+        },
+        {
+            "pistonTraction", "the same of pistons", "Pa", "any", "restart, out"
+        },
+        {
+            "shellMotion",
+            "thermal motion along its axis of a shell with friction", "m",
+            "any", "restart, out"
         },
         {
             "wallGive",

@@ -121,7 +121,7 @@ vessel() { # a tall glass bed in a thin vessel
     warned "gravity that points to the lid" "Gravity points to wall 'top', whose pressure is given: .* weight of the bed, [0-9.]+ kPa"
     rm -rf [1-9]*
     sed -i 's/type shell;/& friction 0.3;/' constant/granularProperties
-    check "a friction that would not be read is refused" refused "Patch side has entry 'friction' and type shell, allowed: in walls of type rigid"
+    check "a friction without the way of slip is refused" refused "Patch side needs entries 'friction' and 'slip'"
     sphere_case fine --material glass --mean-radius 0.002 --box 0.04x0.02x0.02 --cells 40x2x2 --left 300
     controls "stopAt nextWrite; writeInterval 1; deltaT 1;"
     logged msddFoam
