@@ -346,9 +346,7 @@ void Foam::caseWarnings::checkWeight()
           + ". Grains that hardly touch have to be pressed together first, in"
             " thousands of short steps. Is the stress in Pa, not in kPa?"
             " restStress in constant/granularProperties finds it from the"
-            " weight, without what friction of walls carries; a tall bed"
-            " between rough walls should begin with a few hundredths of its"
-            " weight"
+            " weight and the friction of the walls"
         );
     }
 }

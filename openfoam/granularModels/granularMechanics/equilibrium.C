@@ -238,6 +238,14 @@ Foam::granularMechanicsModels::equilibrium::equilibrium
             << "; see checkMesh" << exit(FatalError);
     }
     shapes_ = reference_;
+    if (grains_.restFriction() > 0)
+    {
+        traction_ = walls_.carried
+        (
+            law_->split(initialStress_.primitiveField()), gravity_,
+            grains_.restFriction()
+        );
+    }
     setWeight();
     setStart();
     compareWeight();

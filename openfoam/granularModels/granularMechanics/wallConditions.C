@@ -342,28 +342,46 @@ void Foam::wallConditions::readFriction
     wall& w
 ) const
 {
-    scalar limit = 0, slip = radius_;
-    bool known = !dict.found("friction");
-    if (!elastic_ && (w.type == kind::rigid || !known))
-    {
-        known = model.wallFriction(limit, slip);
-    }
-    w.friction = keys.number(dict, "friction", limit);
-    if (!known && !(dict.found("friction") && dict.found("slip")))
+    const frictionLaw law(frictionOf(dict, model, !elastic_));
+    w.friction = law.limit;
+    if (!law.known && !(dict.found("friction") && dict.found("slip")))
     {
         FatalIOErrorInFunction(dict)
             << "Patch " << name << " needs entries 'friction' and"
             << " 'slip': the model has no friction at walls"
             << exit(FatalIOError);
     }
-    w.slip = keys.number(dict, "slip", slip, radius_);
+    w.slip =
+        keys.number(dict, "slip", law.slip > 0 ? law.slip : radius_, radius_);
     w.layer = keys.number(dict, "layer", keys.usual("layer")*radius_, radius_);
     w.layerStrength = keys.number
     (
         dict,
         "layerStrength",
-        known ? max(scalar(1), min(scalar(3), w.friction/usualRatio)) : 1
+        law.known ? max(scalar(1), min(scalar(3), w.friction/usualRatio)) : 1
     );
+}
+
+
+Foam::wallConditions::frictionLaw Foam::wallConditions::frictionOf
+(
+    const dictionary& dict,
+    const granularModel& model,
+    const bool own
+)
+{
+    frictionLaw law;
+    const kind type = kindNames.getOrDefault("type", dict, kind::rigid);
+    const bool given = dict.found("friction");
+    if (type == kind::rigid || type == kind::shell || type == kind::piston)
+    {
+        law.known =
+            own && (given || type == kind::rigid)
+          ? model.wallFriction(law.limit, law.slip)
+          : !given;
+        law.limit = keys.number(dict, "friction", law.limit);
+    }
+    return law;
 }
 
 

@@ -465,6 +465,40 @@ void Foam::wallConditions::friction
 }
 
 
+Foam::scalarField Foam::wallConditions::carried
+(
+    const List<scalarField>& stress,
+    const vector& gravity,
+    const scalar share
+)
+{
+    findLimits(stress, mesh_.points());
+    const label dim = mesh_.dim();
+    const vector up(-gravity/mag(gravity));
+    scalarField result(dim*slipNodes_.size(), Zero);
+    forAll(slipNodes_, i)
+    {
+        const scalar most =
+            length_[i] > 0
+          ? coulombFriction::all*share*limit_[i]/length_[i]
+          : 0;
+        for (label way = (dim - 1)*i; way < (dim - 1)*i + nTangents_[i]; ++way)
+        {
+            scalar along = 0;
+            for (label k = 0; k < dim; ++k)
+            {
+                along += tangents_[dim*way + k]*up[k];
+            }
+            for (label k = 0; k < dim; ++k)
+            {
+                result[dim*i + k] += most*along*tangents_[dim*way + k];
+            }
+        }
+    }
+    return result;
+}
+
+
 void Foam::wallConditions::setStiffness(const scalar pressure)
 {
     const label dim = mesh_.dim();

@@ -33,20 +33,6 @@ namespace Foam
 static const scalar largestPart = 1e-3;
 static const label leastParts = 20;
 
-static const keyTable restKeys
-(
-    "restStress",
-    {
-        {
-            "lateral",
-            "horizontal over vertical stress. The log says if packings of this"
-            " porosity cannot carry it; the run then begins with the most they"
-            " can", "-", "0 to 10", "required"
-        },
-        {"surface", "pressure on the surface", "Pa", "0 to 1e12", "0"}
-    }
-);
-
 //- FatalError unless all values are numbers between the limits, which are
 //- themselves excluded
 static void checkField
@@ -478,30 +464,6 @@ Foam::scalarField Foam::granularState::initialSolid() const
         model_->solidFraction(porosity().primitiveField(), solid);
     }
     return solid;
-}
-
-
-Foam::tmp<Foam::symmTensorField> Foam::granularState::restStress() const
-{
-    const dictionary dict(properties_.restStressDict());
-    restKeys.check(dict);
-    const scalar lateral = restKeys.number(dict, "lateral");
-    const scalar above = restKeys.number(dict, "surface");
-
-    // With the mean density: where it varies, the first step finds the rest
-    const scalarField& V = mesh_.V();
-    const scalar density =
-        properties_.density().value()*gSum(V*initialSolid())/gSum(V);
-    const vector& g = properties_.gravity();
-    const vector up(-g/mag(g));
-    const scalar top = gMax((mesh_.points() & up)());
-    const symmTensor shape
-    (
-        lateral*symmTensor(symmTensor::I) + (1 - lateral)*sqr(up)
-    );
-    return
-        -(above + density*mag(g)*(top - (mesh_.C().primitiveField() & up)))
-       *shape;
 }
 
 

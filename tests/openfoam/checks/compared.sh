@@ -110,7 +110,7 @@ within() { # steel under 20 kPa, warmed by a few kelvin
 }
 vessel() { # a tall glass bed in a thin vessel
     sphere_case vessel --material glass --mean-radius 0.002 --radius 0.05 --height 0.33 --side 300 --initial-temperature 293 --gravity 9.81 \
-        --shell 200e9,0.002,1.2e-5 --cells 4x20
+        --shell 200e9,0.002,1.2e-5 --wall-friction 0 --cells 4x20
     controls "stopAt nextWrite; writeInterval 1; deltaT 1;"
     logged msddFoam
     warned "a smooth side of a tall bed, and what friction would carry" \

@@ -108,7 +108,7 @@ rough_silo() { # folder, displacement of the floor after 4 s
         bottom { type rigid; friction 0.4; slip 2e-5; displacement table ((0 (0 0 0)) (2 (0 0 0)) (4 ('"$2"'))); }
         top { type pressure; pressure table ((0 5000) (2 10000) (4 8000)); } }'
     rm 0/stress
-    grains 'restStress { lateral 0.7; surface 5000; }'
+    grains 'restStress { lateral 0.7; surface 5000; wallFriction 0; }' # with friction mobilised at the start it needs twice the slip, see above
     gravity_is '0 0 -9.81'
     controls 'endTime 4; writeInterval 2; startFrom latestTime;'
     awk_mesh tet 4 1

@@ -1,10 +1,11 @@
 # Friction on walls that give way: plates and shells along which a body slides, a vessel that expands as its grains do, the motion of a
 # shell by temperature along its axis, Janssen's equation in a stiff shell, a silo under its weight and a lid that is heated and cooled,
-# without friction, in a rigid wall in place of the shell, restart, three processes; walls that grains have left; what is refused.
+# without friction, in a rigid wall in place of the shell, restart, three processes; walls that grains have left;
+# beds that begin at rest between rough walls; what is refused.
 
 # A stiff body between a flat wall with friction and a plate opposite, which moves along it. The wall is pressed with some 10 kPa; the
 # friction is half of its largest after a slip of 1 m, beside which the motion of the body of some 1e-7 m is small.
-pushed() { # folder, wall: prints the mobilised share of the friction after 0.5, 3 and 2.9 m, along y
+pushed() { # folder, wall, field of its friction: prints the mobilised share of the friction after 0.5, 3 and 2.9 m, along y
     local time
     solid "$1" "residual 5e-3; walls { \".*\" { type pressure; pressure constant 0; } top { $2 friction 0.4; slip 1; }
         bottom { type displacement; displacement table ((0 (0 0 0)) (1 (0 0 1e-7)) (2 (0 0.5 1e-7)) (3 (0 3 1e-7)) (4 (0 2.9 1e-7))); } }"
@@ -209,6 +210,42 @@ left_wall() { # a rough lid that stays; grains leave it, in part, as the bed sin
     check "grains that have left a rough wall have no friction there: points left, with friction, held with friction: $left" awk "BEGIN { split(\"$left\", n, \" \"); exit !(n[1] >= 20 && n[2] == 0 && n[3] >= 20) }"
 }
 
+# A silo twice as high as wide, without a lid, begins at rest under its weight, of which its rough wall carries a third: the mean vertical stress of each
+# layer after the first step beside Janssen's with the ratio of stresses that is given. Near the floor, where nothing slips, it may be above.
+at_rest() { # wall, keys of the start: prints the largest difference over the stress at the foot
+    spheres_bed shells-rest "residual 1e-2; walls { \"bottom|inner\" { type frictionless; } top { type pressure; pressure constant 0; } side { $1 friction 0.15; slip 2e-6; } }"
+    rm 0/stress
+    grains "restStress { lateral 0.8; $2 }"
+    gravity_is '-9.81 0 0'
+    silo_mesh 6 24
+    cell_geometry
+    logged msddFoam
+    paste -d ' ' <(field 0/C) <(field 0/V) <(field 1/stress) | awk '{ i = int(60*$1); V[i] += $4; s[i] -= $4*$5 } END { L = (0.01 - 1e-4)/(2*0.1*0.15*0.8); g = 2500*0.59*9.81*L
+        for (i = 0; i < 24; i++) { e = (s[i]/V[i] - g*(1 - exp(-(0.4 - (i + 0.5)/60)/L)))/(g*(1 - exp(-0.4/L))); if (e < 0) e = -e; if (!(e <= w)) w = e }
+        print w }'
+}
+starts_at_rest() {
+    local e
+    e=$(at_rest 'type shell; youngModulus 2e11; thickness 1e-3; radius 0.1;' '')
+    check "a silo begins at rest in a rough shell: the stress differs by $e <= 0.03 of that at the foot from Janssen's" below "$e" 0.03
+    at_rest 'type rigid;' '' > "$work/rest"
+    e=$(cat "$work/rest")
+    check "and in a rigid rough wall: by $e <= 0.03" below "$e" 0.03
+    cp 1/stress whole-stress
+    rm -r 1
+    in_parts '3 1'
+    side_by_side 3
+    logged reconstructPar -latestTime
+    e=$(paste -d ' ' <(field 1/stress) <(field whole-stress) | awk '{ for (k = 1; k <= 6; k++) { e = ($k - $(k + 6))/3700; if (e < 0) e = -e; if (!(e <= w)) w = e } } END { print (NR > 100 ? w : "nan") }')
+    check "on three processes, too: the stress differs by $e <= 1e-5 of that at the foot" below "$e" 1e-5
+    e=$(at_rest 'type rigid;' 'wallFriction 0;')
+    check "without the friction of the walls by $e, at least 0.3" below 0.3 "$e"
+    at_rest 'type rigid;' 'wallFriction 0;' > /dev/null
+    rm -r 1
+    sed -i 's/wallFriction 0;/wallFriction 1.5;/' constant/granularProperties
+    check "refused: more than all of the friction of the walls" refused "Entry 'wallFriction' is 1.5, allowed: 0 to 1"
+}
+
 refused_shells() { # expected message|walls
     local message walls
     while IFS='|' read -r message walls; do
@@ -227,6 +264,7 @@ warm_above quarter_mesh '0 0 0.1' 3 3 'axis (0 0 1);'
 janssen_in_a_shell
 vessels
 left_wall
+starts_at_rest
 shell='type shell; youngModulus 2e11; thickness 1e-3; radius 0.1;'
 refused_shells silo_mesh <<END
 Entry 'friction' is -0.5, allowed: 0 to 10|side { $shell friction -0.5; slip 1e-6; }
