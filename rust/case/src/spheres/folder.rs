@@ -42,7 +42,7 @@ pub fn files(scene: &SphereCase, name: &str, checkout: &Path) -> Result<Vec<File
         foam("system/decomposeParDict", "dictionary", template!("decomposeParDict")),
         foam("0/T", "volScalarField", template!("T")),
     ]);
-    files.extend(initial_fields(scene)?);
+    files.extend(initial_fields(scene));
     if scene.heat_source.is_some() {
         files.push(foam("constant/fvOptions", "dictionary", template!("fvOptions")));
     }
@@ -63,7 +63,7 @@ fn tolerance(scene: &SphereCase) -> f64 {
 }
 
 /// Porosity, fabric index, and the stress unless it follows from the weight, with the same value in all cells.
-fn initial_fields(scene: &SphereCase) -> Result<Vec<File>, CaseError> {
+fn initial_fields(scene: &SphereCase) -> Vec<File> {
     let field = |path: &'static str, kind: FieldKind, note: &str, value: &str| {
         let name = path.trim_start_matches("0/");
         File { path, text: uniform(name, kind, note, value), program: false }
@@ -79,12 +79,12 @@ fn initial_fields(scene: &SphereCase) -> Result<Vec<File>, CaseError> {
     ];
     if !rests(scene) {
         let note = "Initial stress (xx xy xz yy yz zz) [Pa], tension positive as everywhere in OpenFOAM: the vertical one is the \
-                    pressure on the top, or between rough walls the least stress that they leave of it (Janssen)";
-        let vertical = scene.stress_at_start()?;
+                    pressure on the top";
+        let vertical = scene.pressure;
         let horizontal = rounded(-LATERAL * vertical, 6);
         fields.push(field("0/stress", FieldKind::Stress, note, &scene.shape.tensor(horizontal, -vertical)));
     }
-    Ok(fields)
+    fields
 }
 
 fn values(scene: &SphereCase, name: &str, checkout: &Path) -> Result<Values, CaseError> {
@@ -185,15 +185,11 @@ fn mesh_values(scene: &SphereCase) -> Values {
 }
 
 /// The stress at the start, for README.md.
-fn stress_row(scene: &SphereCase) -> Result<String, CaseError> {
-    Ok(match rests(scene) {
+fn stress_row(scene: &SphereCase) -> String {
+    match rests(scene) {
         true => "at rest under weight and pressure on the top | `constant/granularProperties`".to_string(),
-        false => {
-            let vertical = plain(scene.stress_at_start()?);
-            let first = if scene.gravity > 0.0 { "; the first step adds the weight" } else { "" };
-            format!("{vertical} Pa everywhere{first} | `0/stress`")
-        }
-    })
+        false => format!("{} Pa everywhere | `0/stress`", plain(scene.pressure)),
+    }
 }
 
 fn bed_values(scene: &SphereCase, start: &InitialBed) -> Result<Values, CaseError> {
@@ -228,7 +224,7 @@ fn bed_values(scene: &SphereCase, start: &InitialBed) -> Result<Values, CaseErro
         ("number", plain(rounded(scene.number(), 2))),
         ("porosity", plain(scene.porosity)),
         ("pressure", plain(scene.pressure)),
-        ("stressRow", stress_row(scene)?),
+        ("stressRow", stress_row(scene)),
         (
             "gravity",
             match scene.gravity > 0.0 {
@@ -251,8 +247,8 @@ fn held(scene: &SphereCase) -> String {
         None => "fixed",
     };
     let friction = match scene.wall_friction {
-        0.0 => "rigid walls are smooth".to_string(),
-        friction => format!("rigid walls: {}", wall::sentence(friction)),
+        0.0 => "walls are smooth".to_string(),
+        friction => format!("walls: {}", wall::sentence(friction)),
     };
     let give = match scene.slack_layer > 0.0 {
         true => format!("; a slack of {} diameters at top and bottom", plain(scene.slack_layer)),
@@ -290,10 +286,12 @@ fn rest(scene: &SphereCase) -> String {
         true => format!(" slackLayer {}; slackRecovery 0.1;", plain(scene.slack_layer)),
         false => String::new(),
     };
-    let rigid = wall::entry(scene.wall_friction, 2.0 * scene.spheres.radius());
+    let diameter = 2.0 * scene.spheres.radius();
+    let rigid = wall::entry(scene.wall_friction, diameter);
+    let friction = wall::friction(scene.wall_friction, diameter);
     let entry = |name: &str| match name {
         "top" if scene.lid == Lid::Presses => {
-            format!("type piston; pressure constant {};", plain(scene.pressure))
+            format!("type piston; pressure constant {};{friction}", plain(scene.pressure))
         }
         "top" | "bottom" => rigid.clone() + &give,
         "side" => side(scene).unwrap_or_else(|| rigid.clone()),
@@ -307,16 +305,16 @@ fn rest(scene: &SphereCase) -> String {
     let names = scene.shape.walls().iter().copied().chain(inner);
     let walls: String = names.map(|name| format!("        {name:8} {{ {} }}\n", entry(name))).collect();
     let mut text = format!(
-        "\n// Walls: frictionless ones stay, and spheres slide along them; rigid ones with friction and slip [m] are rough: tangential\n\
-         // over normal stress, less than the coefficient of a sphere, and the slip at half of it; piston is a stiff\n\
-         // plate under a load (pressure where air would press); shell is a thin vessel that gives way and expands with its own temperature.\n\
+        "\n// Walls: rigid and frictionless ones stay, piston is a stiff plate under a load (pressure where air would press), shell is a thin\n\
+         // vessel that gives way and expands with its own temperature, along its axis from fixedPoint. friction is tangential over normal\n\
+         // stress, less than the coefficient of a sphere, and slip [m] that at half of it; without them spheres slide freely.\n\
          // give: by how many diameters of bed spheres give way at a smooth wall\n\
          equilibriumCoeffs\n{{\n    walls\n    {{\n{walls}    }}\n}}\n"
     );
     if rests(scene) {
         text += &format!(
-            "\n// The stress at the start: under the weight of what lies above and the pressure on the top; lateral: the horizontal one over\n\
-             // the vertical one\nrestStress\n{{\n    lateral         {};\n    surface         {};\n}}\n",
+            "\n// The stress at the start: under the weight of what lies above and the pressure on the top, less what rough walls carry (Janssen);\n\
+             // lateral: the horizontal one over the vertical one\nrestStress\n{{\n    lateral         {};\n    surface         {};\n}}\n",
             plain(LATERAL),
             plain(scene.pressure)
         );
@@ -360,21 +358,20 @@ fn flow_row(scene: &SphereCase) -> String {
 fn side(scene: &SphereCase) -> Option<String> {
     match (scene.shell, scene.shape) {
         (Some(shell), Shape::Cylinder { radius, .. }) => Some(format!(
-            "type shell; youngModulus {}; thickness {}; radius {}; thermalExpansion {}; temperature {};",
+            "type shell; youngModulus {}; thickness {}; radius {};{}{}",
             plain(shell.young_modulus),
             plain(shell.thickness),
             plain(radius),
-            plain(shell.thermal_expansion),
-            plain(scene.initial_temperature)
+            wall::expansion(shell.thermal_expansion, scene.initial_temperature, scene.wall_friction),
+            wall::friction(scene.wall_friction, 2.0 * scene.spheres.radius())
         )),
         _ => None,
     }
 }
 
-/// Whether the bed begins at rest under its weight. Rough walls carry a part of it; the bed then begins with
-/// [`SphereCase::stress_at_start`] everywhere, and the first step adds the weight.
+/// Whether the bed begins at rest under its weight.
 fn rests(scene: &SphereCase) -> bool {
-    scene.gravity > 0.0 && (scene.wall_friction == 0.0 || scene.shell.is_some())
+    scene.gravity > 0.0
 }
 
 #[cfg(test)]

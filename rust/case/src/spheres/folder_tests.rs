@@ -19,6 +19,7 @@ fn walls_and_stress_stand_where_the_solver_looks_for_them() {
     let vessel = SphereCase { shell, ..closed.clone() };
     let rough = SphereCase { wall_friction: 0.3, ..closed };
     let bare = SphereCase { wall_material: None, steady: true, ..spheres() };
+    let rough_vessel = SphereCase { shell, lid: Lid::Presses, slack_layer: 0.0, ..rough.clone() };
     let still = SphereCase { mechanics: Mechanics::None, ..spheres() };
     let flow = Some(Flow { mass: 0.0072, temperature: 813.0, upwards: true });
     let blown = SphereCase { flow, walls: walls_of(["insulated"; 3]).to_vec(), ..spheres() };
@@ -53,10 +54,8 @@ fn walls_and_stress_stand_where_the_solver_looks_for_them() {
             true,
         ),
         (&rough, GRAINS, "inner    { type frictionless; }", true),
-        // Walls bear a part of the weight, so the bed does not begin at rest.
-        (&rough, GRAINS, "restStress", false),
+        (&rough, GRAINS, "restStress", true),
         (&rough, "constant/g", "value", true),
-        (&rough, "0/stress", "uniform", true),
         (
             &still,
             "0/T",
@@ -74,6 +73,9 @@ fn walls_and_stress_stand_where_the_solver_looks_for_them() {
         (&bare, "0/T", "type    fixedValue;\n        value   uniform 400;", true),
         (&bare, GRAINS, "wall {", false),
         (&bare, "system/fvSolution", "stopWhenSteady          1e-3;", true),
+        (&rough, "0/stress", "uniform", false),
+        (&rough_vessel, GRAINS, "fixedPoint (0 0 0); friction 0.154; slip 6.4e-6; }", true),
+        (&rough_vessel, GRAINS, "type piston; pressure constant 20000; friction 0.154; slip 6.4e-6; }", true),
         (&still, GRAINS, "equilibriumCoeffs", false),
         (&still, GRAINS, "throughCoeffs", false),
         (&blown, GRAINS, "massFlow        0.0001;", true),

@@ -2,7 +2,7 @@
 
 use super::material::Spheres;
 use super::shape::Shape;
-use super::start::{Gas, InitialBed, LATERAL, PouredBed};
+use super::start::{Gas, InitialBed, PouredBed};
 use super::wall::{self, WallMaterial};
 use crate::CaseError;
 use crate::numbers::{plain, rounded};
@@ -78,7 +78,7 @@ pub struct SphereCase {
     pub shell: Option<Shell>,
     /// By how much spheres give way at bottom and top where these stay \[mean diameters\].
     pub slack_layer: f64,
-    /// Coefficient of friction of spheres and the walls that stay; 0: smooth.
+    /// Coefficient of friction of spheres and walls; 0: smooth.
     pub wall_friction: f64,
     /// Material of the walls that heat passes; none: they have their temperature where the mesh ends.
     pub wall_material: Option<WallMaterial>,
@@ -285,23 +285,6 @@ impl SphereCase {
         self.shape.volume() * (1.0 - self.porosity) / (4.0 / 3.0 * PI * radius * radius * radius)
     }
 
-    /// Vertical stress with which the bed begins everywhere, unless it begins at rest under its weight \[Pa\]: the pressure on the
-    /// top. Under gravity between rough walls it is the least stress of Janssen's equation, if that is less: the first step then
-    /// loads the bed, which mobilises the friction.
-    ///
-    /// # Errors
-    /// As for [`SphereCase::start`].
-    pub fn stress_at_start(&self) -> Result<f64, CaseError> {
-        if self.gravity == 0.0 || self.wall_friction == 0.0 || self.lid == Lid::Stays {
-            return Ok(self.pressure);
-        }
-        let length = self.shape.hydraulic_length() / (wall::of_bed(self.wall_friction) * LATERAL);
-        let deep = self.spheres.grains.density * (1.0 - self.porosity) * self.gravity * length;
-        let bottom = deep + (self.pressure - deep) * (-self.shape.height() / length).exp();
-        let [least, _] = self.bed()?.pressures();
-        Ok(rounded(bottom.max(least), 3).min(self.pressure))
-    }
-
     /// What the weight of the bed adds to the vertical stress at the bottom on earth \[Pa\].
     pub fn weight(&self) -> f64 {
         self.spheres.grains.density * (1.0 - self.porosity) * GRAVITY * self.shape.height()
@@ -406,22 +389,14 @@ impl SphereCase {
                 plain(rounded(weight, 2))
             )
         });
-        let rigid = self.shell.is_none();
-        let smooth = (rigid && self.wall_friction == 0.0 && slenderness > 1.0).then(|| {
+        let smooth = (self.wall_friction == 0.0 && slenderness > 1.0).then(|| {
             format!(
                 "the sides are smooth; friction at sides keeps a bed that is taller than wide from rising as it is heated, and \
                  raises its pressure: --wall-friction {} adds it",
                 wall::OF_SPHERE
             )
         });
-        let shell = (!rigid && self.gravity > 0.0).then(|| {
-            format!(
-                "the shell is smooth: friction is not modelled there; in a bed {} vessel diameters high friction would carry a \
-                 part of the weight: the log of the run has Janssen's estimate",
-                plain(rounded(slenderness, 2))
-            )
-        });
-        [weight, smooth, shell].into_iter().flatten().collect()
+        [weight, smooth].into_iter().flatten().collect()
     }
 }
 

@@ -80,7 +80,7 @@ fn proposals_follow_spheres_walls_and_diffusion() {
 }
 
 #[test]
-fn weight_and_friction_are_counted_at_the_start_or_noted() {
+fn weight_and_friction_that_are_left_out_are_noted() {
     let begins = |scene: &SphereCase, notes: &[&str]| {
         let found = scene.notes();
         let fit = found.iter().zip(notes).all(|(note, begin)| note.starts_with(begin));
@@ -90,11 +90,4 @@ fn weight_and_friction_are_counted_at_the_start_or_noted() {
     begins(&spheres(), &["the weight of the bed, up to 18000 Pa at the bottom", "the sides are smooth"]);
     let rough = SphereCase { gravity: GRAVITY, wall_friction: wall::OF_SPHERE, ..spheres() };
     begins(&rough, &[]);
-    // Janssen's stress at the bottom: less than the pressure on the top, if that is more than the walls leave of the weight
-    let length = 0.05 / (wall::of_bed(wall::OF_SPHERE) * LATERAL);
-    let deep = 7800.0 * 0.6 * GRAVITY * length;
-    let bottom = deep + (2e4 - deep) * f64::exp(-0.4 / length);
-    assert!(bottom < 2e4 && (rough.stress_at_start().unwrap() / bottom - 1.0).abs() < 0.01, "{bottom}");
-    assert_eq!(SphereCase { pressure: 1e3, ..rough.clone() }.stress_at_start().unwrap(), 1e3);
-    assert_eq!(SphereCase { lid: Lid::Stays, ..rough }.stress_at_start().unwrap(), 2e4);
 }

@@ -70,14 +70,6 @@ impl Shape {
         }
     }
 
-    /// Area of a horizontal section over its circumference \[m\].
-    pub fn hydraulic_length(&self) -> f64 {
-        match *self {
-            Self::Box([x, y, _]) => 0.5 * x * y / (x + y),
-            Self::Cylinder { radius, .. } => 0.5 * radius,
-        }
-    }
-
     /// \[m³\]
     pub fn volume(&self) -> f64 {
         match *self {

@@ -102,14 +102,34 @@ pub fn of_spheres(friction: f64) -> Option<f64> {
     (friction < MOST).then(|| friction / (1.0 - (friction / MOST).powi(2)).sqrt())
 }
 
-/// A wall that stays, as an entry of `walls` in `constant/granularProperties`; `diameter` of the spheres \[m\].
-pub fn entry(friction: f64, diameter: f64) -> String {
+/// The keys of friction of a wall in `constant/granularProperties`, each after a blank; `diameter` of the spheres \[m\].
+pub fn friction(friction: f64, diameter: f64) -> String {
     match friction > 0.0 {
         true => {
             let [friction, slip] = [of_bed(friction), SLIP * diameter].map(short);
-            format!("type rigid; friction {friction}; slip {slip};")
+            format!(" friction {friction}; slip {slip};")
         }
+        false => String::new(),
+    }
+}
+
+/// A wall that stays, as an entry of `walls` in `constant/granularProperties`; `diameter` of the spheres \[m\].
+pub fn entry(friction: f64, diameter: f64) -> String {
+    match friction > 0.0 {
+        true => format!("type rigid;{}", self::friction(friction, diameter)),
         false => "type frictionless;".to_string(),
+    }
+}
+
+/// Keys of the thermal expansion \[1/K\] of a shell that is at its initial place at a temperature \[K\], each after a blank. With
+/// friction it expands from the floor, where the axis of the mesh begins.
+pub fn expansion(expansion: f64, temperature: f64, friction: f64) -> String {
+    let fixed = if friction > 0.0 { " fixedPoint (0 0 0);" } else { "" };
+    match expansion > 0.0 {
+        true => {
+            format!(" thermalExpansion {}; temperature {};{fixed}", plain(expansion), plain(temperature))
+        }
+        false => String::new(),
     }
 }
 

@@ -66,18 +66,12 @@ pub fn run(arguments: &Arguments) -> Result<(), CliError> {
 
 /// What the solver's case leaves out.
 fn notes(scene: &DemCase) -> Vec<String> {
-    let friction = (scene.grains.wall_friction > 0.0 && scene.shell.is_some()).then(|| {
-        format!(
-            "walls have a friction of {}; a compliant side has none in the solver's case",
-            scene.grains.wall_friction
-        )
-    });
     let grains = (scene.grains.friction != 0.3).then(|| {
         format!("spheres have a friction of {}; the law of spheres is valid for 0.3", scene.grains.friction)
     });
     let sides =
         scene.sides.is_some().then(|| "the base is strained; in the solver's case it stays".to_string());
-    friction.into_iter().chain(grains).chain(sides).collect()
+    grains.into_iter().chain(sides).collect()
 }
 
 /// The files of the case.
@@ -210,6 +204,7 @@ fn properties(scene: &DemCase, start: &FirstRow, geometry: &Geometry) -> String 
         plain(0.5 * grains.diameter),
     );
     let rigid = wall::entry(grains.wall_friction, grains.diameter);
+    let friction = wall::friction(grains.wall_friction, grains.diameter);
     let lid = match (&scene.lid.strain, &scene.lid.pressing) {
         (Some(strain), _) => {
             let moved = table(strain, |strain| geometry.along(-strain * geometry.depth()));
@@ -217,7 +212,7 @@ fn properties(scene: &DemCase, start: &FirstRow, geometry: &Geometry) -> String 
         }
         (None, Some(pressing)) => {
             let pressure = table(pressing, |pressure| plain(pressure * geometry.widening.powi(2)));
-            format!("type piston; pressure {pressure};")
+            format!("type piston; pressure {pressure};{friction}")
         }
         (None, None) => format!("{rigid} {GIVE}"),
     };
@@ -226,16 +221,13 @@ fn properties(scene: &DemCase, start: &FirstRow, geometry: &Geometry) -> String 
     let side = match &scene.shell {
         Some(shell) => {
             let radius = geometry.radii.map_or(0.0, |radii| radii[2]);
-            let expansion = match shell.thermal_expansion > 0.0 {
-                true => format!(
-                    " thermalExpansion {}; temperature {};",
-                    plain(shell.thermal_expansion),
-                    plain(scene.time.initial_temperature)
-                ),
-                false => String::new(),
-            };
+            let expansion = wall::expansion(
+                shell.thermal_expansion,
+                scene.time.initial_temperature,
+                grains.wall_friction,
+            );
             format!(
-                "type shell; youngModulus {}; thickness {}; radius {};{expansion}",
+                "type shell; youngModulus {}; thickness {}; radius {};{expansion}{friction}",
                 plain(shell.young_modulus),
                 plain(shell.thickness / geometry.widening),
                 plain(radius)

@@ -26,13 +26,10 @@ pub enum Command {
     /// The initial state of spheres follows from the law of spheres, for a bed that was poured and pressed from above: the
     /// horizontal stress is 0.8 of the vertical one, there are 0.4 contacts per sphere more than in a periodic box, and more
     /// of them point upwards (fabric 0.35 instead of 1/3). The law is valid for a friction of 0.3. There is gravity, and
-    /// rigid walls have the friction of a sphere, 0.3. All walls are rigid but a top that presses and a side that is a shell,
-    /// which is always smooth.
+    /// walls have the friction of a sphere, 0.3. All walls are rigid but a top that presses and a side that is a shell.
     ///
-    /// With smooth walls the bed begins at rest under its weight (restStress). Rough walls carry a part of the weight: the
-    /// bed begins with the stress on its top everywhere, or with the least stress that the walls leave of it (Janssen), and
-    /// the first step adds the weight. A wall has its temperature where the mesh ends: the resistance between a wall and the
-    /// first spheres is left out.
+    /// The bed begins at rest under its weight, of which rough walls carry a part (restStress). A wall has its temperature
+    /// where the mesh ends: the resistance between a wall and the first spheres is left out.
     New(Box<new::Arguments>),
     /// Check a case folder before the run: lists what is missing, out of range or warned.
     Check(check::Arguments),

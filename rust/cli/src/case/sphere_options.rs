@@ -100,7 +100,7 @@ pub struct SphereOptions {
     /// top that presses.
     #[arg(long, alias = "give", value_name = "D", requires = "spheres")]
     slack_layer: Option<f64>,
-    /// Coefficient of friction of a sphere on the rigid walls; 0: smooth walls. A bed slips along them at less, which is what
+    /// Coefficient of friction of a sphere on the walls; 0: smooth walls. A bed slips along them at less, which is what
     /// the case has: 0.154 for 0.3. Allowed: >= 0. Default: 0.3, as between the spheres; 0 with `--mechanics none`.
     #[arg(long, value_name = "MU", requires = "spheres")]
     wall_friction: Option<f64>,
@@ -398,7 +398,7 @@ impl SphereOptions {
             "presses",
             choice::<LidName>,
         )?;
-        let help = "The coefficient of friction of a sphere on the rigid walls; 0: smooth walls. Friction at the side of a tall bed \
+        let help = "The coefficient of friction of a sphere on the walls; 0: smooth walls. Friction at the side of a tall bed \
                     carries much of its weight and keeps it from rising as it is heated.";
         let read = prompter.within(number, |&value| ranges::wall_friction(value));
         let question = "Friction of the walls";
@@ -495,7 +495,7 @@ pub fn summary(scene: &SphereCase) -> Result<String, CliError> {
     let start = scene.start()?;
     let short = |value: f64| plain(rounded(value, 3));
     let friction = match scene.wall_friction > 0.0 {
-        true => format!("\nrigid walls: {}", wall::sentence(scene.wall_friction)),
+        true => format!("\nwalls: {}", wall::sentence(scene.wall_friction)),
         false => String::new(),
     };
     let crushed = scene.spheres.crush_load.map_or(String::new(), |load| {

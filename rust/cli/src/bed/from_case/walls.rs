@@ -39,7 +39,7 @@ impl Walls {
                 continue;
             };
             let kind = entry.text("type")?;
-            if ["rigid", "frictionless", "displacement"].contains(&kind.as_str()) {
+            if kind != "pressure" {
                 frictions.push((patch, friction(entry, patch, notes)?));
             }
             match (kind.as_str(), wall) {
