@@ -13,7 +13,7 @@
 enum { components = 6, turns = 3, most = 64 };
 
 static const msdd_sphere_material material = {
-    sizeof material, 2e-3, 5e9, 0.25, 40.0, 0.0, 1.0, "air", 1.013e5, 0.9, 0.0
+    sizeof material, 2e-3, 5e9, 0.25, 40.0, 0.0, 1.0, "air", 1.013e5, 0.9, 0.0, 0.0
 };
 
 static int step(const msdd_spheres *law, double *const *state)
