@@ -7,7 +7,7 @@ use crate::numbers::{plain, rounded};
 use crate::packing::{Packing, Spread};
 use crate::path;
 use crate::scene::DiscCase;
-use crate::values::{compression_name, fill, values};
+use crate::values::{compression_name, fill, stop_when_steady, values};
 use std::fs;
 use std::os::unix::fs::PermissionsExt;
 use std::path::{Path, PathBuf};
@@ -92,16 +92,6 @@ pub fn files(scene: &DiscCase, packing: &Packing, name: &str, checkout: &Path) -
     }
     files.extend(initial_fields(packing));
     files
-}
-
-/// Keys of `system/fvSolution` of a run that ends once it is steady.
-pub(crate) fn stop_when_steady(steady: bool) -> String {
-    match steady {
-        true => "\n\n    // The run ends once T and p would change by less than this share in as long a time as the run so far\n    \
-                 stopWhenSteady          1e-3;"
-            .to_string(),
-        false => String::new(),
-    }
 }
 
 /// The files that hardly depend on the bed: what runs and removes, and numerical schemes. `tolerance`: error of T that a step may

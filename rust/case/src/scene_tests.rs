@@ -45,7 +45,7 @@ fn walls_are_read_as_they_are_written() {
         "0:300;60:350",
         "1,2",
     ] {
-        assert!(parse_wall(wrong).unwrap_err().starts_with("insulated, a temperature in Kelvin"), "{wrong}");
+        assert!(parse_wall(wrong).unwrap_err().starts_with("insulated, a temperature in kelvin"), "{wrong}");
     }
     assert!(parse_sides::<f64>("1x2x3x4").is_err() && parse_point("0.1").is_err());
 }

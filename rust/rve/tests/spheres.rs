@@ -86,6 +86,7 @@ fn a_csv_reads_back_and_readers_of_discs_refuse_it() {
 fn shaken_boxes_are_dense_and_soft() {
     let preparation = |shaking: f64| Preparation {
         spheres: 300,
+        sizes: None,
         seed: 12,
         poisson_ratio: 0.25,
         restitution: 0.3,
@@ -120,6 +121,7 @@ fn shaken_boxes_are_dense_and_soft() {
 fn packings_are_like_those_of_others() {
     let preparation = Preparation {
         spheres: 300,
+        sizes: None,
         seed: 11,
         poisson_ratio: 0.25,
         restitution: 0.3,

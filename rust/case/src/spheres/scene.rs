@@ -143,6 +143,7 @@ impl SphereCase {
         self.check_mesh()?;
         self.check_heat()?;
         self.check_flow()?;
+        self.check_properties()?;
         check_pressure(&self.spheres, self.pressure)?;
         check_porosity(&self.spheres, self.pressure, self.porosity)?;
         self.check_mechanics()?;
@@ -171,18 +172,6 @@ impl SphereCase {
             ranges::wall(wall, |value| ranges::temperature_with(gas, name, value))?;
         }
         ranges::gas_pressure(self.gas.pressure)?;
-        let spheres = &self.spheres;
-        for (key, property) in [
-            ("thermalConductivity", &spheres.conductivity),
-            ("heatCapacity", &spheres.heat_capacity),
-            ("emissivity", &spheres.emissivity),
-        ] {
-            if let Err(error) = property.check(self.temperatures(), [0.0, VALUES[1]]) {
-                let text = error.to_string();
-                let (value, allowed) = text.split_once(", allowed: ").unwrap_or((&text, "see above"));
-                return refuse(key, value, allowed);
-            }
-        }
         for temperature in self.temperatures() {
             let Some(between) = gas.at(temperature, self.gas.pressure, 1.0) else { continue };
             let (solid, least) =
@@ -197,6 +186,23 @@ impl SphereCase {
             })?;
         }
         self.heat_source.map_or(Ok(()), ranges::heat_source)
+    }
+
+    /// Tables over T have to cover the temperatures of the run, those of the gas that flows in among them.
+    fn check_properties(&self) -> Result<(), CaseError> {
+        let spheres = &self.spheres;
+        for (key, property) in [
+            ("thermalConductivity", &spheres.conductivity),
+            ("heatCapacity", &spheres.heat_capacity),
+            ("emissivity", &spheres.emissivity),
+        ] {
+            if let Err(error) = property.check(self.temperatures(), [0.0, VALUES[1]]) {
+                let text = error.to_string();
+                let (value, allowed) = text.split_once(", allowed: ").unwrap_or((&text, "see above"));
+                return refuse(key, value, allowed);
+            }
+        }
+        Ok(())
     }
 
     fn check_flow(&self) -> Result<(), CaseError> {
