@@ -95,6 +95,9 @@ pub mod wall_control;
 pub use averages::{Averages, averages};
 pub use pack::{Packed, Packing, pack, pack_along, shake};
 
+/// Increased by one whenever the same description and seed of a bed give other numbers: earlier results of it are then computed again.
+pub const ENGINE_VERSION: u32 = 1;
+
 /// What can go wrong with a box.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum BedError {

@@ -98,7 +98,7 @@ pub fn compute_packings(
 
 /// The first line of the results of a packing that is one of several: what they were computed from.
 fn origin(input: &str, seed: u64) -> String {
-    format!("# of {}, seed {seed}, msdd {}\n", hash(input), env!("CARGO_PKG_VERSION"))
+    format!("# of {}, seed {seed}, engine {}\n", hash(input), msdd_beds::ENGINE_VERSION)
 }
 
 fn scene(folder: &Path, seed: Option<u64>) -> Result<DemCase, CliError> {
