@@ -119,6 +119,16 @@ fn readme_values(scene: &DiscCase, packing: &Packing) -> Values {
     ]
 }
 
+/// Keys of `system/fvSolution` of a run that ends once it is steady.
+pub(crate) fn stop_when_steady(steady: bool) -> String {
+    match steady {
+        true => "\n\n    // The run ends once T and p would change by less than this share in as long a time as the run so far\n    \
+                 stopWhenSteady          1e-3;"
+            .to_string(),
+        false => String::new(),
+    }
+}
+
 /// Rows of the table in README.md for the walls.
 pub(crate) fn wall_rows<'a>(walls: impl Iterator<Item = (&'a str, &'a WallOverTime)>) -> String {
     walls.map(|(name, wall)| format!("| {name} wall | {} | `0/T` |\n", describe(wall))).collect()
