@@ -320,16 +320,6 @@ pub(crate) fn fill(template: &str, values: &Values) -> String {
     values.iter().fold(template.to_string(), |text, (key, value)| text.replace(&format!("@{key}@"), value))
 }
 
-/// Keys of `system/fvSolution` of a run that ends once it is steady.
-pub(crate) fn stop_when_steady(steady: bool) -> String {
-    match steady {
-        true => "\n\n    // The run ends once T and p would change by less than this share in as long a time as the run so far\n    \
-                 stopWhenSteady          1e-3;"
-            .to_string(),
-        false => String::new(),
-    }
-}
-
 /// A property as the solver reads it.
 pub fn property_text(of: &Property) -> String {
     match of {
