@@ -41,7 +41,7 @@ const DISC_TEMPERATURES: [f64; 2] = [0.0, 1e5];
 pub fn temperature(key: &str, value: f64) -> Result<(), CaseError> {
     let [low, high] = DISC_TEMPERATURES;
     allow(key, value, (low..=high).contains(&value), || {
-        format!("{low} to {high:e} K; temperatures are in Kelvin")
+        format!("{low} to {high:e} K; temperatures are in kelvin")
     })
 }
 
@@ -51,7 +51,7 @@ pub fn temperature_with(gas: GasName, key: &str, value: f64) -> Result<(), CaseE
     let high = high.min(1e5);
     allow(key, value, (low..=high).contains(&value), || {
         let (low, high, gas) = (number(low), number(high), gas.as_str());
-        format!("{low} to {high} K, the table of {gas}; temperatures are in Kelvin")
+        format!("{low} to {high} K, the table of {gas}; temperatures are in kelvin")
     })
 }
 

@@ -54,7 +54,7 @@ fn report(folder: &Path, found: &[Finding]) -> Result<(), CliError> {
         )));
     }
     match warned {
-        0 => outln!("{folder}: checked, nothing is missing, out of range or warned"),
+        0 => outln!("{folder}: checked, no errors, no warnings"),
         _ => outln!("{folder}: checked, no errors, {warnings}"),
     }
     Ok(())

@@ -31,7 +31,7 @@ pub enum Command {
     /// The bed begins at rest under its weight, of which rough walls carry a part (restStress). A wall has its temperature
     /// where the mesh ends: the resistance between a wall and the first spheres is left out.
     New(Box<new::Arguments>),
-    /// Check a case folder before the run: lists what is missing, out of range or warned.
+    /// Check a case folder before the run: lists errors and warnings.
     Check(check::Arguments),
     /// Find the cheapest settings of the solver for a wanted accuracy of T, by short runs on the case itself, and run them.
     ///
