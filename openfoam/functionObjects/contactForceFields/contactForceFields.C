@@ -169,6 +169,11 @@ bool Foam::functionObjects::contactForceFields::write()
             << tab << mean << tab << most.first() << tab << of.hertz(most.first())
             << tab << at.x() << tab << at.y() << tab << at.z() << endl;
     }
+    if (time_.value() == 0)
+    {
+        // The folder 0 has the initial fields alone
+        return true;
+    }
     writeField("contactForce", dimForce, force);
     writeField("largeContactForce", dimForce, contactForces::large*force);
     writeField("contactPressure", dimPressure, pressure);

@@ -94,6 +94,7 @@ within() { # steel under 20 kPa, warmed by a few kelvin
     said "forces of contacts are told all the same" 'Contacts: at a pressure of 1[0-9.]* kPa the mean force'
     # Extremes of the time before a restart
     sed -i 's/uniform 300/uniform 293/' 0/T
+    rm -rf ../warmer
     cp -r . ../warmer
     cd ../warmer
     rm -rf [1-9]* log

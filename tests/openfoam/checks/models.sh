@@ -68,7 +68,7 @@ logged msddFoam
 own_fields() {
     local name columns='porosity fabricIndex fabricShear jammingFraction elasticCompression elasticShear1 elasticShear1Xy elasticShear2 elasticShear2Xy strength ownConductivity ownConductivityIndex ownConductivityShear'
     for name in $(ls 1); do
-        grep -qw -- "$name" <<< "$columns $(grep 'Allowed: any name but' ../log.bad)" || { echo "$name is not refused" >&2; return 1; }
+        grep -qw -- "$name" <<< "$columns $(grep 'Allowed: any name except' ../log.bad)" || { echo "$name is not refused" >&2; return 1; }
     done
 }
 check "plugin: its columns may have no name of $(ls 1 | wc -l) that the solver writes" own_fields
