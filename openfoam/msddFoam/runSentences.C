@@ -28,7 +28,7 @@ namespace Foam
 
 //- Largest pressure of the solver over that in DEM at the same time, in a
 //- closed vessel of steel spheres that is heated from outside and cooled
-static const scalar relievedError = 71;
+static const scalar relievedError = 64;
 
 } // End namespace Foam
 

@@ -165,7 +165,7 @@ Foam::timeSchemes::secondOrder::secondOrder
     rejected_(0),
     forced_(0)
 {
-    see();
+    updateTemperatureRange();
     if (adaptive_)
     {
         mechanics.addLoads(loads_);
@@ -201,7 +201,7 @@ Foam::timeSchemes::secondOrder::secondOrder
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-void Foam::timeSchemes::secondOrder::see()
+void Foam::timeSchemes::secondOrder::updateTemperatureRange()
 {
     runRecord& record = grains_.record();
     const auto look = [&record](const scalarField& T)
@@ -543,7 +543,7 @@ void Foam::timeSchemes::secondOrder::step()
         deltaT = fitted(max(minDeltaT_, deltaT*factor));
     }
     forced_ += adaptive_ && error > 1;
-    see();
+    updateTemperatureRange();
     keepConductivity(deltaT);
 
     accountStages(deltaT);
