@@ -176,7 +176,8 @@ Foam::DynamicList<Foam::string> Foam::runResults::sentences() const
     lines.append
     (
         "Temperature: " + number(gMin(T_.primitiveField())) + " to "
-      + number(gMax(T_.primitiveField())) + " K. The largest in a cell was "
+      + number(gMax(T_.primitiveField())) + " K. The largest in a cell since "
+      + number(T_.time().startTime().value()) + " s was "
       + number(hottest_.value) + " K at " + place(hottest_.at, size)
       + " after " + number(hottest_.time) + " s."
     );

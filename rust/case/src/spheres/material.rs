@@ -8,7 +8,7 @@ use msdd_beds::property::Property;
 use msdd_beds::sizes::{MAX_SPREAD, equal_density};
 use msdd_beds::units;
 
-/// Spheres of one material. The law of spheres knows one friction between them, 0.3.
+/// Spheres of one material. The law of spheres is valid for one friction between them, 0.3.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Spheres {
     /// `mean_radius` is the radius of the spheres, `young_modulus` that of the solid; properties at the start.

@@ -502,7 +502,7 @@ pub fn summary(scene: &SphereCase) -> Result<String, CliError> {
         let (d, solid) = (2.0 * scene.spheres.radius(), 1.0 - scene.porosity);
         let force = scene.pressure * PI * d * d / (solid * start.coordination);
         let share = short(100.0 * force / load);
-        format!("\ncontacts under the top bear {} N in the mean, {share} % of the crush load", short(force))
+        format!("\ncontacts under the top carry {} N on average, {share} % of the crush load", short(force))
     });
     Ok(format!(
         "{} {} m, {} cells, about {} spheres; {}; {} K at the start; {} s\n\

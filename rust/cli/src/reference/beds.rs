@@ -1,4 +1,4 @@
-//! `msdd reference beds`: sets the solver beside beds of spheres that were computed by DEM, and fits its error bands.
+//! `msdd reference beds`: compares the solver with beds of spheres computed by DEM, and fits its error bands.
 
 use super::bands::{Found, Group, fit_law, print_coverage, run as attempt_run, write_law};
 use super::scenes::solve;
