@@ -17,6 +17,7 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace msdd
 {
@@ -79,15 +80,10 @@ inline void checkVersion()
 /** Deleter of the handles and texts that the library hands out. */
 struct Free
 {
-    void operator()(msdd_surrogate* surrogate) const noexcept
+    void operator()(msdd_model* model) const noexcept
     {
         const MaskedTraps masked;
-        msdd_surrogate_free(surrogate);
-    }
-    void operator()(msdd_spheres* spheres) const noexcept
-    {
-        const MaskedTraps masked;
-        msdd_spheres_free(spheres);
+        msdd_model_free(model);
     }
     void operator()(msdd_rve* rve) const noexcept
     {
@@ -103,27 +99,83 @@ struct Free
 
 } // namespace detail
 
-/** A material with its struct_size filled in.
- *  @param thermalConductivity k of the grains [W/(m K)]
- *  @param youngModulus E of the grains [Pa]
- *  @param meanRadius mean grain radius in the initial state [m] */
-inline msdd_material material(double thermalConductivity, double youngModulus, double meanRadius) noexcept
+/** A struct of the interface with its struct_size filled in and everything else 0 or NULL; set the members by name. */
+template<class Struct> Struct sized() noexcept
 {
-    msdd_material result = msdd_material();
-    result.struct_size = sizeof(msdd_material);
-    result.thermal_conductivity = thermalConductivity;
-    result.young_modulus = youngModulus;
-    result.mean_radius = meanRadius;
+    Struct result = Struct();
+    result.struct_size = sizeof(Struct);
     return result;
 }
 
-/** A batch for this number of cells, with its struct_size filled in and all columns NULL; set the columns by name. */
-inline msdd_batch batch(std::size_t cells) noexcept
+/** Grains of a model of discs. Spheres need more members.
+ *  @param conductivity k of the grains [W/(m K)]
+ *  @param youngModulus E of the grains [Pa]
+ *  @param radius mean grain radius in the initial state [m] */
+inline msdd_grains grains(double conductivity, double youngModulus, double radius) noexcept
 {
-    msdd_batch result = msdd_batch();
-    result.struct_size = sizeof(msdd_batch);
-    result.cells = cells;
+    msdd_grains result = sized<msdd_grains>();
+    result.conductivity = conductivity;
+    result.young_modulus = youngModulus;
+    result.radius = radius;
     return result;
+}
+
+/** A step of this number of cells without columns. @param components 3 or 6, see Model::components */
+inline msdd_step step(std::size_t cells, std::size_t components) noexcept
+{
+    msdd_step result = sized<msdd_step>();
+    result.cells = cells;
+    result.components = components;
+    return result;
+}
+
+/** Initial data of this number of cells without columns. @param components 3 or 6, see Model::components */
+inline msdd_start start(std::size_t cells, std::size_t components) noexcept
+{
+    msdd_start result = sized<msdd_start>();
+    result.cells = cells;
+    result.components = components;
+    return result;
+}
+
+/** A column that is read, or NULL. @param stride distance of the values of neighbouring cells, in doubles */
+inline msdd_input input(const double* values, std::size_t stride = 1) noexcept
+{
+    return msdd_input{values, stride};
+}
+
+/** A column that is written, or NULL. @param stride distance of the values of neighbouring cells, in doubles */
+inline msdd_output output(double* values, std::size_t stride = 1) noexcept
+{
+    return msdd_output{values, stride};
+}
+
+/** A table of contiguous columns; empty for a table that is NULL. */
+inline std::vector<msdd_input> inputs(const double* const* columns, std::size_t count)
+{
+    std::vector<msdd_input> table;
+    for (std::size_t k = 0; columns && k < count; ++k)
+    {
+        table.push_back(input(columns[k]));
+    }
+    return table;
+}
+
+/** A table of contiguous columns; empty for a table that is NULL. */
+inline std::vector<msdd_output> outputs(double* const* columns, std::size_t count)
+{
+    std::vector<msdd_output> table;
+    for (std::size_t k = 0; columns && k < count; ++k)
+    {
+        table.push_back(output(columns[k]));
+    }
+    return table;
+}
+
+/** The table as the interface takes it: NULL if it is empty. */
+template<class Column> const Column* table(const std::vector<Column>& columns) noexcept
+{
+    return columns.empty() ? nullptr : columns.data();
 }
 
 /** Version of the library, for example "0.1.0". */
@@ -131,16 +183,6 @@ inline std::string version()
 {
     const detail::MaskedTraps masked;
     return msdd_version();
-}
-
-/** Initial data of this number of cells, with its struct_size filled in and all columns NULL; set the columns by name.
- */
-inline msdd_initial initial(std::size_t cells) noexcept
-{
-    msdd_initial result = msdd_initial();
-    result.struct_size = sizeof(msdd_initial);
-    result.cells = cells;
-    return result;
 }
 
 /** Least and largest value of a quantity by which the model with this hash was compared with DEM, see msdd_compared.
@@ -175,197 +217,127 @@ inline GasProperties gasProperties(const std::string& gas, double temperature)
     return GasProperties{found[0], found[1], found[2], found[3], found[4], found[5]};
 }
 
-/** A surrogate model: immutable, movable, not copyable. */
-class Surrogate
+/** A model of discs, of spheres or of a plug-in: immutable, movable, not copyable. */
+class Model
 {
 public:
-    /** Loads a model: "builtin", "builtin:paper", "plugin:" and the path of a plug-in, or the path of a model file.
-     *  Throws Error. */
-    explicit Surrogate(const std::string& source = "builtin")
+    /** Loads a model: "builtin", "builtin:paper", "builtin:spheres", "plugin:" and the path of a plug-in, or the path of a model
+     *  file. Throws Error. */
+    explicit Model(const std::string& source = "builtin")
     {
         const detail::MaskedTraps masked;
         detail::checkVersion();
-        msdd_surrogate* handle = nullptr;
-        detail::check(msdd_surrogate_load(source.c_str(), &handle));
+        msdd_model* handle = nullptr;
+        detail::check(msdd_model_load(source.c_str(), &handle));
         handle_.reset(handle);
     }
 
     /** The same model with another kind of conductivity, "affine" (Eq. 9) or "network" (resistor network of the
      *  contacts); describe lists the kinds that it was trained for. Throws Error for any other. */
-    Surrogate withConductivity(const std::string& kind) const
+    Model withConductivity(const std::string& kind) const
     {
         const detail::MaskedTraps masked;
-        msdd_surrogate* handle = nullptr;
-        detail::check(msdd_surrogate_with_conductivity(handle_.get(), kind.c_str(), &handle));
-        return Surrogate(handle);
+        msdd_model* handle = nullptr;
+        detail::check(msdd_model_with_conductivity(handle_.get(), kind.c_str(), &handle));
+        return Model(handle);
     }
 
     /** Number of state columns; 0 for an object that was moved from. */
     std::size_t stateSize() const
     {
         const detail::MaskedTraps masked;
-        return msdd_surrogate_state_size(handle_.get());
+        return msdd_model_state_size(handle_.get());
     }
 
     /** Name of a state column, counted from 0, for example "porosity"; empty beyond the last. */
     std::string stateName(std::size_t column) const
     {
         const detail::MaskedTraps masked;
-        return text(msdd_surrogate_state_name(handle_.get(), column));
+        return text(msdd_model_state_name(handle_.get(), column));
+    }
+
+    /** Components of stress and strain: 3 in the plane, 6 in space. */
+    std::size_t components() const
+    {
+        const detail::MaskedTraps masked;
+        return msdd_model_components(handle_.get());
     }
 
     /** Fills the state columns of cells at the start. Throws Error. */
-    void initialState(const msdd_material& material, const msdd_initial& initial, double* const* state) const
+    void initialState(const msdd_grains& grains, const msdd_start& start, const msdd_output* state) const
     {
         const detail::MaskedTraps masked;
-        detail::check(msdd_surrogate_initial_state(handle_.get(), &material, &initial, state));
+        detail::check(msdd_model_initial_state(handle_.get(), &grains, &start, state));
     }
 
     /** Steps 1 and 2 of the paper's Algorithm 1 for every cell of the batch; fills its outputs. Throws Error, and then
      *  has written nothing. */
-    void advance(const msdd_material& material, msdd_batch& batch) const
+    void advance(const msdd_grains& grains, msdd_step& step) const
     {
         const detail::MaskedTraps masked;
-        detail::check(msdd_surrogate_advance(handle_.get(), &material, &batch));
+        detail::check(msdd_model_advance(handle_.get(), &grains, &step));
     }
 
     /** Whether the model has a mechanical tangent. */
     bool hasTangent() const
     {
         const detail::MaskedTraps masked;
-        return msdd_surrogate_has_tangent(handle_.get()) != 0;
+        return msdd_model_has_tangent(handle_.get()) != 0;
     }
 
     /** Constants of the friction coefficient mobilised at a wall after the slip s [m], which is limit s/(s + slip).
      *  Returns false and sets nothing when the model has none. */
-    bool wallFriction(const msdd_material& material, double& limit, double& slip) const
+    bool wallFriction(const msdd_grains& grains, double& limit, double& slip) const
     {
         const detail::MaskedTraps masked;
-        return msdd_surrogate_wall_friction(handle_.get(), &material, &limit, &slip) == MSDD_OK;
+        return msdd_model_wall_friction(handle_.get(), &grains, &limit, &slip) == MSDD_OK;
     }
 
-    /** Solid fractions (sum of grain areas over area, overlaps counted twice) [-] of initial states with the given
-     *  porosities. Throws Error. */
+    /** Solid fractions [-] of initial states with the given porosities, see msdd_model_solid_fraction. Throws Error. */
     void solidFraction(std::size_t cells, const double* porosity, double* solidFraction) const
     {
         const detail::MaskedTraps masked;
-        detail::check(msdd_surrogate_solid_fraction(handle_.get(), cells, porosity, solidFraction));
+        detail::check(msdd_model_solid_fraction(handle_.get(), cells, porosity, solidFraction));
     }
 
     /** SHA-256 of the model file, 64 hexadecimal digits; empty for an object that was moved from. */
     std::string hash() const
     {
         const detail::MaskedTraps masked;
-        return text(msdd_surrogate_hash(handle_.get()));
+        return text(msdd_model_hash(handle_.get()));
     }
 
-    /** Description as one JSON object, see msdd_surrogate_describe; empty for an object that was moved from. */
+    /** Description as one JSON object, see msdd_model_describe; empty for an object that was moved from. */
     std::string describe() const
     {
         const detail::MaskedTraps masked;
-        return text(msdd_surrogate_describe(handle_.get()));
+        return text(msdd_model_describe(handle_.get()));
     }
 
 private:
-    explicit Surrogate(msdd_surrogate* handle) : handle_(handle) {}
+    explicit Model(msdd_model* handle) : handle_(handle) {}
 
     static std::string text(const char* pointer) { return pointer ? pointer : ""; }
 
-    std::unique_ptr<msdd_surrogate, detail::Free> handle_;
+    std::unique_ptr<msdd_model, detail::Free> handle_;
 };
 
-/** The law of packings of spheres: immutable, movable, not copyable. */
-class Spheres
+/** What a wall adds to the resistance of a bed of spheres [m2 K/W], from the stress normal to it [Pa, compression positive], the
+ *  temperature of the gas [K] and the conductivity of the bed across it [W/(m K)] at each face. Throws Error. */
+inline void wallResistance
+(
+    const msdd_grains& grains,
+    const msdd_sphere_wall& wall,
+    std::size_t faces,
+    const double* stress,
+    const double* temperature,
+    const double* conductivity,
+    double* resistance
+)
 {
-public:
-    /** Loads a law: "builtin" or the path of a model file. Throws Error. */
-    explicit Spheres(const std::string& source = "builtin")
-    {
-        const detail::MaskedTraps masked;
-        detail::checkVersion();
-        msdd_spheres* handle = nullptr;
-        detail::check(msdd_spheres_load(source.c_str(), &handle));
-        handle_.reset(handle);
-    }
-
-    /** Number of state columns; 0 for an object that was moved from. */
-    std::size_t stateSize() const
-    {
-        const detail::MaskedTraps masked;
-        return msdd_spheres_state_size(handle_.get());
-    }
-
-    /** Name of a state column, counted from 0; empty beyond the last. */
-    std::string stateName(std::size_t column) const
-    {
-        const detail::MaskedTraps masked;
-        return text(msdd_spheres_state_name(handle_.get(), column));
-    }
-
-    /** Fills the state columns of packings with these solid fractions and stresses (six columns [Pa], compression positive), and
-     *  contacts per sphere, mobilised part of the friction, and fabric (six columns) or null. Throws Error. */
-    void initialState
-    (
-        const msdd_sphere_material& material,
-        std::size_t cells,
-        const double* solidFraction,
-        const double* const* stress,
-        const double* coordination,
-        const double* mobilised,
-        const double* const* fabric,
-        double* const* state
-    ) const
-    {
-        const detail::MaskedTraps masked;
-        detail::check
-        (
-            msdd_spheres_initial_state
-            (
-                handle_.get(), &material, cells, solidFraction, stress, coordination, mobilised,
-                fabric, state
-            )
-        );
-    }
-
-    /** One step of every cell of the batch; fills its outputs. Throws Error, and then has written nothing. */
-    void advance(const msdd_sphere_material& material, msdd_sphere_batch& batch) const
-    {
-        const detail::MaskedTraps masked;
-        detail::check(msdd_spheres_advance(handle_.get(), &material, &batch));
-    }
-
-    /** What a wall adds to the resistance of a bed [m2 K/W], from the stress normal to it [Pa, compression positive], the temperature
-     *  of the gas [K] and the conductivity of the bed across it [W/(m K)] at each face. Throws Error. */
-    static void wallResistance
-    (
-        const msdd_sphere_material& material,
-        const msdd_sphere_wall& wall,
-        std::size_t faces,
-        const double* stress,
-        const double* temperature,
-        const double* conductivity,
-        double* resistance
-    )
-    {
-        const detail::MaskedTraps masked;
-        detail::check
-        (
-            msdd_spheres_wall_resistance(&material, &wall, faces, stress, temperature, conductivity, resistance)
-        );
-    }
-
-    /** SHA-256 of the model file, 64 hexadecimal digits; empty for an object that was moved from. */
-    std::string hash() const
-    {
-        const detail::MaskedTraps masked;
-        return text(msdd_spheres_hash(handle_.get()));
-    }
-
-private:
-    static std::string text(const char* pointer) { return pointer ? pointer : ""; }
-
-    std::unique_ptr<msdd_spheres, detail::Free> handle_;
-};
+    const detail::MaskedTraps masked;
+    detail::check(msdd_wall_resistance(&grains, &wall, faces, stress, temperature, conductivity, resistance));
+}
 
 /** A box of grains, simulated by DEM. It can be moved, and copied by clone() alone. Only one thread at a time
  *  may use it. */

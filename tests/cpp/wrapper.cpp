@@ -56,22 +56,21 @@ struct Cells
     Column strain, totalStrain, kxx, kyy, sxx, syy;
     std::vector<std::uint8_t> clamped;
 
-    Cells(const msdd::Surrogate& surrogate, std::size_t n, double fabricIndex = 0.05)
-    : state(surrogate.stateSize(), Column(n, -7)), next(state), strain(n, 1e-3), totalStrain(n, 0.01),
+    Cells(const msdd::Model& model, std::size_t n, double fabricIndex = 0.05)
+    : state(model.stateSize(), Column(n, -7)), next(state), strain(n, 1e-3), totalStrain(n, 0.01),
       kxx(n, -7), kyy(n, -7), sxx(n, -7), syy(n, -7), clamped(n, 9)
     {
         const Column porosity(n, 0.125), fabric(n, fabricIndex);
-        msdd_initial initial = msdd::initial(n);
-        initial.porosity = porosity.data();
-        initial.fabric_index = fabric.data();
-        const std::vector<double*> columns = pointers(state);
-        surrogate.initialState(msdd::material(100, 1e7, 5e-3), initial, columns.data());
+        msdd_start start = msdd::start(n, 3);
+        start.porosity = msdd::input(porosity.data());
+        start.fabric_index = msdd::input(fabric.data());
+        model.initialState(msdd::grains(100, 1e7, 5e-3), start, outputs(state).data());
     }
 
-    static std::vector<double*> pointers(std::vector<Column>& columns)
+    static std::vector<msdd_output> outputs(std::vector<Column>& columns)
     {
-        std::vector<double*> result;
-        for (Column& column : columns) { result.push_back(column.data()); }
+        std::vector<msdd_output> result;
+        for (Column& column : columns) { result.push_back(msdd::output(column.data())); }
         return result;
     }
 
@@ -82,26 +81,28 @@ struct Cells
         return result;
     }
 
-    std::size_t advance(const msdd::Surrogate& surrogate, double youngModulus = 1e7, std::size_t shorter = 0)
+    std::size_t advance(const msdd::Model& model, double youngModulus = 1e7, std::size_t shorter = 0)
     {
-        const std::vector<double*> before = pointers(state), after = pointers(next);
-        msdd_batch batch = msdd::batch(strain.size());
-        batch.struct_size -= shorter;
-        batch.state = before.data();
-        batch.next_state = after.data();
-        batch.thermal_strain = strain.data();
-        batch.total_thermal_strain = totalStrain.data();
-        batch.conductivity_xx = kxx.data();
-        batch.conductivity_yy = kyy.data();
-        batch.stress_xx = sxx.data();
-        batch.stress_yy = syy.data();
-        batch.clamped = clamped.data();
-        const msdd_material grains = msdd::material(100, youngModulus, 5e-3);
+        std::vector<msdd_input> before;
+        for (const Column& column : state) { before.push_back(msdd::input(column.data())); }
+        const std::vector<msdd_output> after = outputs(next);
+        const msdd_output conductivity[] = {msdd::output(kxx.data()), msdd::output(kyy.data()), msdd::output(nullptr)};
+        const msdd_output stress[] = {msdd::output(sxx.data()), msdd::output(syy.data()), msdd::output(nullptr)};
+        msdd_step step = msdd::step(strain.size(), 3);
+        step.struct_size -= shorter;
+        step.state = before.data();
+        step.next_state = after.data();
+        step.thermal_strain = msdd::input(strain.data());
+        step.total_thermal_strain = msdd::input(totalStrain.data());
+        step.conductivity = conductivity;
+        step.stress = stress;
+        step.outside = clamped.data();
+        const msdd_grains grains = msdd::grains(100, youngModulus, 5e-3);
         std::feclearexcept(FE_ALL_EXCEPT);
-        surrogate.advance(grains, batch);
+        model.advance(grains, step);
         // Without the guard at least the flag of an inexact result would be set here.
         EXPECT(std::fetestexcept(FE_ALL_EXCEPT) == 0);
-        return batch.clamped_cells;
+        return step.outside_cells;
     }
 };
 
@@ -138,16 +139,16 @@ void guardMasksAndRestores()
     EXPECT(invalidTraps());
 }
 
-void farOutsideIsClamped(const msdd::Surrogate& surrogate)
+void farOutsideIsClamped(const msdd::Model& model)
 {
     const double huge = std::numeric_limits<double>::max();
-    Cells cells(surrogate, 9);
+    Cells cells(model, 9);
     cells.state[0][1] = huge;
     cells.state[0][2] = -huge;
     cells.state[1][3] = huge;
     cells.strain[4] = -huge;
     cells.state[0][5] = cells.state[1][5] = cells.strain[5] = 1e200;
-    EXPECT(cells.advance(surrogate) == 5);
+    EXPECT(cells.advance(model) == 5);
     for (std::size_t i = 0; i < 9; ++i)
     {
         EXPECT(cells.clamped[i] == (i >= 1 && i <= 5 ? 1 : 0));
@@ -156,21 +157,21 @@ void farOutsideIsClamped(const msdd::Surrogate& surrogate)
     }
 }
 
-void zeroStrainChangesNothing(const msdd::Surrogate& surrogate)
+void zeroStrainChangesNothing(const msdd::Model& model)
 {
-    Cells cells(surrogate, 5);
+    Cells cells(model, 5);
     cells.strain.assign(5, 0.0);
-    cells.advance(surrogate);
+    cells.advance(model);
     EXPECT(cells.next == cells.state);
 }
 
-void tendenciesAreGranular(const msdd::Surrogate& surrogate)
+void tendenciesAreGranular(const msdd::Model& model)
 {
-    Cells cells(surrogate, 3), turned(surrogate, 1, -0.05);
+    Cells cells(model, 3), turned(model, 1, -0.05);
     cells.strain = {0.01, -0.01, 0.0};
     turned.strain = {0.01};
-    cells.advance(surrogate);
-    turned.advance(surrogate);
+    cells.advance(model);
+    turned.advance(model);
     EXPECT(cells.next[0][0] < 0.125 && cells.next[0][1] > 0.125);
     EXPECT(cells.kxx[0] > cells.kxx[2] && cells.kxx[2] > cells.kxx[1]);
     EXPECT(cells.sxx[0] > cells.sxx[2] && cells.sxx[2] > cells.sxx[1]);
@@ -178,27 +179,27 @@ void tendenciesAreGranular(const msdd::Surrogate& surrogate)
     EXPECT(turned.kyy[0] > 0.9 * cells.kxx[0] && turned.kyy[0] < 1.1 * cells.kxx[0]);
 }
 
-void answersDoNotDependOnTheBatch(const msdd::Surrogate& surrogate)
+void answersDoNotDependOnTheBatch(const msdd::Model& model)
 {
     const std::size_t n = 29;
-    Cells all(surrogate, n);
+    Cells all(model, n);
     for (std::size_t i = 0; i < n; ++i)
     {
         all.state[0][i] += 1e-3 * double(i);
         all.state[1][i] -= 3e-3 * double(i);
         all.strain[i] -= 1e-4 * double(i);
     }
-    all.advance(surrogate);
+    all.advance(model);
     for (std::size_t size = 1; size <= n; size += 6)
     {
-        Cells part(surrogate, size);
+        Cells part(model, size);
         const std::size_t first = n - size;
         for (std::size_t i = 0; i < size; ++i)
         {
             for (std::size_t k = 0; k < part.state.size(); ++k) { part.state[k][i] = all.state[k][first + i]; }
             part.strain[i] = all.strain[first + i];
         }
-        part.advance(surrogate);
+        part.advance(model);
         for (std::size_t o = 0; o < part.outputs().size(); ++o)
         {
             const double* expected = all.outputs()[o]->data() + first;
@@ -207,11 +208,11 @@ void answersDoNotDependOnTheBatch(const msdd::Surrogate& surrogate)
     }
 }
 
-void badInputThrowsAndWritesNothing(const msdd::Surrogate& surrogate)
+void badInputThrowsAndWritesNothing(const msdd::Model& model)
 {
-    Cells cells(surrogate, 6);
+    Cells cells(model, 6);
     cells.state[1][4] = std::numeric_limits<double>::quiet_NaN();
-    std::pair<int, std::string> error = thrown([&] { cells.advance(surrogate); });
+    std::pair<int, std::string> error = thrown([&] { cells.advance(model); });
     EXPECT(error.first == MSDD_NON_FINITE && has(error.second, "fabric_index[4]"));
     for (const Column* column : cells.outputs())
     {
@@ -219,10 +220,10 @@ void badInputThrowsAndWritesNothing(const msdd::Surrogate& surrogate)
     }
     EXPECT(cells.clamped == std::vector<std::uint8_t>(6, 9));
 
-    Cells good(surrogate, 1);
-    error = thrown([&] { good.advance(surrogate, 1e7, 8); });
+    Cells good(model, 1);
+    error = thrown([&] { good.advance(model, 1e7, 8); });
     EXPECT(error.first == MSDD_INVALID_ARGUMENT && has(error.second, "struct_size"));
-    error = thrown([&] { good.advance(surrogate, -1e7); });
+    error = thrown([&] { good.advance(model, -1e7); });
     EXPECT(error.first == MSDD_INVALID_ARGUMENT && has(error.second, "young_modulus = -10000000"));
 }
 
@@ -239,16 +240,16 @@ void rveSwellsUnderTraps()
 }
 
 /// The affine conductivity must be above that of the resistor network; the state must be the same.
-void conductivityIsChosen(const msdd::Surrogate& surrogate)
+void conductivityIsChosen(const msdd::Model& model)
 {
-    const msdd::Surrogate affine = surrogate.withConductivity("affine");
-    const msdd::Surrogate network = affine.withConductivity("network");
+    const msdd::Model affine = model.withConductivity("affine");
+    const msdd::Model network = affine.withConductivity("network");
     Cells upper(affine, 3), lower(network, 3);
     upper.advance(affine);
     lower.advance(network);
     EXPECT(upper.kxx[1] > lower.kxx[1] && upper.kyy[1] > lower.kyy[1] && upper.next == lower.next);
     EXPECT(has(affine.describe(), "\"conductivity\":\"affine\"") && affine.hash() == network.hash());
-    const std::pair<int, std::string> error = thrown([&] { surrogate.withConductivity("exact"); });
+    const std::pair<int, std::string> error = thrown([&] { model.withConductivity("exact"); });
     EXPECT(error.first == MSDD_INVALID_ARGUMENT && has(error.second, "kind = exact, allowed: "));
 }
 
@@ -296,19 +297,19 @@ void databaseIsMadeInSeveralGoes(const std::string& path)
 
 void loadingFailsWithTheReason()
 {
-    std::pair<int, std::string> error = thrown([] { msdd::Surrogate("/no/such/model.json"); });
+    std::pair<int, std::string> error = thrown([] { msdd::Model("/no/such/model.json"); });
     EXPECT(error.first == MSDD_IO && has(error.second, "/no/such/model.json"));
-    error = thrown([] { msdd::Surrogate{__FILE__}; });
+    error = thrown([] { msdd::Model{__FILE__}; });
     EXPECT(error.first == MSDD_MODEL && has(error.second, "damaged"));
 }
 
 void handlesMove()
 {
-    static_assert(!std::is_copy_constructible<msdd::Surrogate>::value, "handles are not copied");
-    msdd::Surrogate first;
+    static_assert(!std::is_copy_constructible<msdd::Model>::value, "handles are not copied");
+    msdd::Model first;
     const std::string hash = first.hash();
     EXPECT(hash.size() == 64 && has(first.describe(), hash.c_str()));
-    msdd::Surrogate second(std::move(first));
+    msdd::Model second(std::move(first));
     EXPECT(second.hash() == hash);
     const double porosity[2] = {0.1, 0.125};
     double solid[2] = {0, 0};
@@ -329,18 +330,18 @@ int main(int argc, char** argv)
     guardMasksAndRestores();
     loadingFailsWithTheReason();
     handlesMove();
-    const msdd::Surrogate surrogate;
+    const msdd::Model builtin;
     const std::string plugin = std::string("plugin:") + argv[2];
     for (const char* name : {"builtin", "builtin:paper", plugin.c_str()})
     {
-        const msdd::Surrogate model(name);
+        const msdd::Model model(name);
         farOutsideIsClamped(model);
         zeroStrainChangesNothing(model);
         tendenciesAreGranular(model);
         answersDoNotDependOnTheBatch(model);
     }
-    conductivityIsChosen(surrogate);
-    badInputThrowsAndWritesNothing(surrogate);
+    conductivityIsChosen(builtin);
+    badInputThrowsAndWritesNothing(builtin);
     rveSwellsUnderTraps();
     databaseIsMadeInSeveralGoes(std::string(argv[1]) + "/a.msdd");
     EXPECT(fegetexcept() == traps);

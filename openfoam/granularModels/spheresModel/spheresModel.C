@@ -191,14 +191,6 @@ static const scalar usualEmissivity = 0.9;
 //- Solid fraction of a usual packing
 static const scalar usualSolid = 0.6;
 
-//- End the run: the library failed
-static void failed(const char* what, const std::exception& error)
-{
-    FatalErrorInFunction
-        << "The law of spheres failed on " << what << ": " << error.what()
-        << exit(FatalError);
-}
-
 } // End namespace Foam
 
 
@@ -210,9 +202,15 @@ Foam::granularModels::spheres::spheres
     const fvMesh& mesh
 )
 :
-    granularModel(typeName, properties, mesh),
-    source_(coeffs_.getOrDefault<fileName>("model", "builtin")),
-    law_(load()),
+    surrogateModel
+    (
+        typeName,
+        "model",
+        named(properties),
+        "builtin, or a readable model file of spheres",
+        properties,
+        mesh
+    ),
     gas_(keys.choice(coeffs_, "gas")),
     emissivity_(coeffs_, keys, "emissivity", dimless),
     radiates_
@@ -220,80 +218,52 @@ Foam::granularModels::spheres::spheres
         keys.choice(coeffs_, "radiation") == "on"
      && (!emissivity_.isNumber() || emissivity_.usual().value() > 0)
     ),
-    material_(material()),
     hasWall_(coeffs_.isDict("wall")),
     ownEmissivity_(hasWall_ && coeffs_.subDict("wall").found("emissivity")),
-    wall_(wall()),
     outside_(0),
     outsideBy_(int64_t(0))
 {
+    completeGrains();
+    wall_ = wall();
     keys.check(coeffs_);
-    checkHash(source_, law_.hash());
-    const label own = stateNames_.size();
-    const label count = label(law_.stateSize());
-    stateNames_.resize(own + count);
-    columnNames_.resize(own + count);
-    for (label i = 0; i < count; ++i)
-    {
-        columnNames_[own + i] = law_.stateName(i);
-        stateNames_[own + i] = fieldName(columnNames_[own + i]);
-    }
 }
 
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-msdd::Spheres Foam::granularModels::spheres::load() const
+Foam::fileName Foam::granularModels::spheres::named
+(
+    const granularProperties& properties
+)
 {
-    if (&coeffs_ == &properties_.surrogateDict())
+    const dictionary& dict = properties.surrogateDict();
+    if (!dict.isDict("spheresCoeffs"))
     {
-        FatalIOErrorInFunction(coeffs_)
+        FatalIOErrorInFunction(dict)
             << "Entry 'spheresCoeffs' is missing: surrogate type spheres needs"
             << " spheresCoeffs { poissonRatio; gas; }" << exit(FatalIOError);
     }
-    try
-    {
-        return msdd::Spheres
-        (
-            source_ == "builtin"
-          ? std::string(source_)
-          : std::string(properties_.path(source_))
-        );
-    }
-    catch (const std::exception& error)
-    {
-        refuse
-        (
-            "model",
-            '"' + source_ + '"',
-            string("builtin, or a readable model file of spheres: ")
-          + error.what()
-        );
-        throw;
-    }
+    return dict.subDict("spheresCoeffs").getOrDefault<fileName>
+    (
+        "model", "builtin"
+    );
 }
 
 
-msdd_sphere_material Foam::granularModels::spheres::material() const
+void Foam::granularModels::spheres::completeGrains()
 {
-    msdd_sphere_material result = msdd_sphere_material();
-    result.struct_size = sizeof(msdd_sphere_material);
-    result.diameter = 2*properties_.meanRadius().value();
-    result.young_modulus = properties_.youngModulus().value();
-    result.conductivity = properties_.thermalConductivity().value();
-    result.poisson_ratio = keys.number(coeffs_, "poissonRatio");
-    result.size_spread = keys.number(coeffs_, "sizeSpread");
-    result.roughness = keys.number(coeffs_, "roughness");
-    if (result.roughness > 0)
+    grains_.poisson_ratio = keys.number(coeffs_, "poissonRatio");
+    grains_.size_spread = keys.number(coeffs_, "sizeSpread");
+    grains_.roughness = keys.number(coeffs_, "roughness");
+    if (grains_.roughness > 0)
     {
         coeffs_.get<scalar>("hardness");
     }
-    result.hardness = keys.number(coeffs_, "hardness", 1);
-    result.gas = gas_.c_str();
-    result.gas_pressure = keys.number(coeffs_, "gasPressure");
-    result.accommodation = keys.number(coeffs_, "accommodation");
-    result.emissivity = radiates_ ? emissivity_.usual().value() : 0;
-    return result;
+    grains_.hardness = keys.number(coeffs_, "hardness", 1);
+    grains_.gas = gas_.c_str();
+    grains_.gas_pressure = keys.number(coeffs_, "gasPressure");
+    grains_.accommodation = keys.number(coeffs_, "accommodation");
+    grains_.emissivity = radiates_ ? emissivity_.usual().value() : 0;
 }
 
 
@@ -319,7 +289,7 @@ msdd_sphere_wall Foam::granularModels::spheres::wall() const
     }
     result.spheres = sphereWallKeys.number(dict, "spheres");
     result.emissivity =
-        sphereWallKeys.number(dict, "emissivity", material_.emissivity);
+        sphereWallKeys.number(dict, "emissivity", grains_.emissivity);
     return result;
 }
 
@@ -400,25 +370,23 @@ void Foam::granularModels::spheres::initialState
         mobilised = ofCells().primitiveField();
     }
     const List<scalarField> fabric(fabricAtStart(cells.size));
-    std::vector<const scalar*> directions;
+    std::vector<msdd_input> directions;
     for (const scalarField& component : fabric)
     {
-        directions.push_back(component.cdata());
+        directions.push_back(msdd::input(component.cdata()));
     }
-    try
+    const std::vector<msdd_input> load(msdd::inputs(stress.data(), 6));
+    const auto column = [](const scalarField& values)
     {
-        law_.initialState
-        (
-            material_, cells.size, solid.cdata(), stress.data(),
-            contacts.empty() ? nullptr : contacts.cdata(),
-            mobilised.empty() ? nullptr : mobilised.cdata(),
-            directions.empty() ? nullptr : directions.data(), state + 2
-        );
-    }
-    catch (const std::exception& error)
-    {
-        failed("the initial state (solid_fraction is 1 - porosity)", error);
-    }
+        return msdd::input(values.empty() ? nullptr : values.cdata());
+    };
+    msdd_start data(msdd::start(cells.size, 6));
+    data.solid_fraction = msdd::input(solid.cdata());
+    data.stress = load.data();
+    data.coordination = column(contacts);
+    data.mobilised = column(mobilised);
+    data.fabric = msdd::table(directions);
+    start(data, grains_, state);
     reportStart(cells.size, stress, state);
 }
 
@@ -494,25 +462,17 @@ void Foam::granularModels::spheres::reportStart
 ) const
 {
     List<scalarField> found(6, scalarField(size));
-    std::vector<scalar*> stress;
-    for (scalarField& column : found)
-    {
-        stress.push_back(column.data());
-    }
-    std::vector<const scalar*> before(state + 2, state + stateNames_.size());
-    msdd_sphere_batch batch = msdd_sphere_batch();
-    batch.struct_size = sizeof(msdd_sphere_batch);
-    batch.cells = size;
-    batch.state = before.data();
-    batch.stress = stress.data();
-    try
-    {
-        law_.advance(material_, batch);
-    }
-    catch (const std::exception& error)
-    {
-        failed("the stress at the start", error);
-    }
+    query start;
+    start.size = size;
+    start.state = state;
+    start.stressXX = found[0].data();
+    start.stressYY = found[1].data();
+    start.stressZZ = found[2].data();
+    start.stressXY = found[3].data();
+    start.stressXZ = found[4].data();
+    start.stressYZ = found[5].data();
+    columns all(columnsOf(start));
+    surrogateModel::advance(all, grains_);
     scalar most = 0;
     for (label celli = 0; celli < size; ++celli)
     {
@@ -535,28 +495,10 @@ void Foam::granularModels::spheres::reportStart
 
 Foam::label Foam::granularModels::spheres::advance(const query& cells)
 {
-    const std::vector<scalar*> stress
-    ({
-        cells.stressXX, cells.stressYY, cells.stressZZ,
-        cells.stressXY, cells.stressXZ, cells.stressYZ
-    });
-    const std::vector<scalar*> conductivity
-    ({
-        cells.conductivityXX, cells.conductivityYY, cells.conductivityZZ,
-        cells.conductivityXY, cells.conductivityXZ, cells.conductivityYZ
-    });
     scalarField solid(cells.size);
-
-    msdd_sphere_batch batch = msdd_sphere_batch();
-    batch.struct_size = sizeof(msdd_sphere_batch);
-    batch.cells = cells.size;
-    batch.state = cells.state + 2;
-    batch.next_state = cells.nextState + 2;
-    batch.thermal_strain = cells.strain;
-    batch.strain = cells.cellStrain;
-    batch.rotation = cells.rotation;
-    batch.tangent = cells.tangent;
-    batch.temperature = cells.temperature;
+    columns all(columnsOf(cells));
+    all.step.temperature = msdd::input(cells.temperature);
+    all.step.solid_fraction = msdd::output(solid.data());
     const temperatureFunction& k = properties_.conductivityFunction();
     const auto along = [&](const temperatureFunction& f, const bool wanted)
     {
@@ -572,20 +514,13 @@ Foam::label Foam::granularModels::spheres::advance(const query& cells)
     };
     const scalarField conducting(along(k, true));
     const scalarField emitting(along(emissivity_, radiates_));
-    batch.solid_conductivity = conducting.empty() ? nullptr : conducting.cdata();
-    batch.emissivity = emitting.empty() ? nullptr : emitting.cdata();
-    batch.stress = stress.data();
-    batch.conductivity = conductivity.data();
-    batch.solid_fraction = solid.data();
-    batch.outside = cells.outsideRow;
-    try
+    const auto column = [](const scalarField& values)
     {
-        law_.advance(material_, batch);
-    }
-    catch (const std::exception& error)
-    {
-        failed("the state of the cells", error);
-    }
+        return msdd::input(values.empty() ? nullptr : values.cdata());
+    };
+    all.step.solid_conductivity = column(conducting);
+    all.step.emissivity = column(emitting);
+    surrogateModel::advance(all, grains_);
     for (label row = 0; row < cells.size; ++row)
     {
         // Exactly as before without strain
@@ -598,9 +533,9 @@ Foam::label Foam::granularModels::spheres::advance(const query& cells)
             still ? cells.state[0][row] : 1 - solid[row];
         cells.nextState[1][row] = cells.state[1][row];
     }
-    if (!cells.trial && batch.outside_cells)
+    if (!cells.trial && all.step.outside_cells)
     {
-        outside_ += batch.outside_cells;
+        outside_ += all.step.outside_cells;
         for (label row = 0; row < cells.size; ++row)
         {
             forAll(outsideBy_, k)
@@ -609,17 +544,7 @@ Foam::label Foam::granularModels::spheres::advance(const query& cells)
             }
         }
     }
-    return label(batch.outside_cells);
-}
-
-
-void Foam::granularModels::spheres::solidFraction
-(
-    const scalarField& porosity,
-    scalarField& fraction
-) const
-{
-    fraction = 1 - porosity;
+    return label(all.step.outside_cells);
 }
 
 
@@ -643,7 +568,7 @@ void Foam::granularModels::spheres::wallResistance
     // Of all faces at once if they have the same properties
     const bool alike = k.isNumber() && (emissivity_.isNumber() || !radiates_);
     const label length = alike ? max(stress.size(), 1) : 1;
-    msdd_sphere_material material(material_);
+    msdd_grains grains(grains_);
     msdd_sphere_wall wall(wall_);
     try
     {
@@ -651,19 +576,19 @@ void Foam::granularModels::spheres::wallResistance
         {
             if (!alike)
             {
-                material.conductivity = k.value(temperature[face]);
+                grains.conductivity = k.value(temperature[face]);
                 if (radiates_)
                 {
-                    material.emissivity = emissivity_.value(temperature[face]);
+                    grains.emissivity = emissivity_.value(temperature[face]);
                     if (!ownEmissivity_)
                     {
-                        wall.emissivity = material.emissivity;
+                        wall.emissivity = grains.emissivity;
                     }
                 }
             }
-            msdd::Spheres::wallResistance
+            msdd::wallResistance
             (
-                material, wall, length, stress.cdata() + face,
+                grains, wall, length, stress.cdata() + face,
                 temperature.cdata() + face, conductivity.cdata() + face,
                 resistance.data() + face
             );
@@ -700,49 +625,41 @@ bool Foam::granularModels::spheres::knownGas
     // A packing that the law knows
     const scalar solid = usualSolid;
     const scalarField stress({1e4, 1e4, 1e4, 0, 0, 0});
-    scalarField state(label(law_.stateSize()));
-    std::vector<const scalar*> given, before;
-    std::vector<scalar*> columns;
+    scalarField state(stateNames_.size());
+    std::vector<msdd_input> given;
+    std::vector<scalar*> own;
     for (const scalar& one : stress)
     {
-        given.push_back(&one);
+        given.push_back(msdd::input(&one));
     }
-    forAll(state, i)
+    for (scalar& one : state)
     {
-        columns.push_back(&state[i]);
-        before.push_back(&state[i]);
+        own.push_back(&one);
     }
     const scalar k = properties_.conductivityFunction().value(T);
-    msdd_sphere_material material(material_);
-    try
+    msdd_grains grains(grains_);
+    msdd_start data(msdd::start(1, 6));
+    data.solid_fraction = msdd::input(&solid);
+    data.stress = given.data();
+    start(data, grains, own.data());
+    uint8_t outside = 0;
+    query one;
+    one.size = 1;
+    one.state = own.data();
+    one.temperature = &T;
+    one.outsideRow = &outside;
+    columns all(columnsOf(one));
+    all.step.temperature = msdd::input(&T);
+    all.step.solid_conductivity = msdd::input(&k);
+    for (label tenth = -30; tenth <= 90; ++tenth)
     {
-        law_.initialState
-        (
-            material, 1, &solid, given.data(), nullptr, nullptr, nullptr,
-            columns.data()
-        );
-        for (label tenth = -30; tenth <= 90; ++tenth)
+        grains.gas_pressure = std::pow(10, 0.1*tenth);
+        surrogateModel::advance(all, grains);
+        if (!(outside & 8))
         {
-            material.gas_pressure = std::pow(10, 0.1*tenth);
-            uint8_t outside = 0;
-            msdd_sphere_batch batch = msdd_sphere_batch();
-            batch.struct_size = sizeof(msdd_sphere_batch);
-            batch.cells = 1;
-            batch.state = before.data();
-            batch.temperature = &T;
-            batch.solid_conductivity = &k;
-            batch.outside = &outside;
-            law_.advance(material, batch);
-            if (!(outside & 8))
-            {
-                least = min(least, material.gas_pressure);
-                most = max(most, material.gas_pressure);
-            }
+            least = min(least, grains.gas_pressure);
+            most = max(most, grains.gas_pressure);
         }
-    }
-    catch (const std::exception& error)
-    {
-        failed("the pressure of the gas", error);
     }
     return true;
 }
@@ -762,37 +679,27 @@ bool Foam::granularModels::spheres::radiation
     {
         answer.emissivity = usualEmissivity;
     }
-    msdd_sphere_material material(material_);
-    material.emissivity = answer.emissivity;
+    msdd_grains grains(grains_);
+    grains.emissivity = answer.emissivity;
     const scalar k = properties_.conductivityFunction().value(T);
     std::vector<const scalar*> before;
-    for (label i = 2; i < state.size(); ++i)
+    for (const scalar& one : state)
     {
-        before.push_back(&state[i]);
+        before.push_back(&one);
     }
-    FixedList<scalar, 6> K(scalar(0));
-    std::vector<scalar*> columns;
-    for (scalar& component : K)
-    {
-        columns.push_back(&component);
-    }
-    msdd_sphere_batch batch = msdd_sphere_batch();
-    batch.struct_size = sizeof(msdd_sphere_batch);
-    batch.cells = 1;
-    batch.state = before.data();
-    batch.temperature = &T;
-    batch.solid_conductivity = &k;
-    batch.conductivity = columns.data();
-    batch.radiation_conductivity = &answer.conductivity;
-    try
-    {
-        law_.advance(material, batch);
-    }
-    catch (const std::exception& error)
-    {
-        failed("radiation", error);
-    }
-    answer.without = (K[0] + K[1] + K[2])/3 - answer.conductivity;
+    symmTensor K(Zero);
+    query one;
+    one.size = 1;
+    one.state = before.data();
+    one.conductivityXX = &K.xx();
+    one.conductivityYY = &K.yy();
+    one.conductivityZZ = &K.zz();
+    columns all(columnsOf(one));
+    all.step.temperature = msdd::input(&T);
+    all.step.solid_conductivity = msdd::input(&k);
+    all.step.radiation_conductivity = msdd::output(&answer.conductivity);
+    surrogateModel::advance(all, grains);
+    answer.without = (K.xx() + K.yy() + K.zz())/3 - answer.conductivity;
     return true;
 }
 

@@ -154,15 +154,6 @@ static wordList ownNames()
     return names;
 }
 
-
-//- End the run: the library failed, for example on inputs that are not finite
-static void failed(const char* what, const std::exception& error)
-{
-    FatalErrorInFunction
-        << "The surrogate model failed on " << what << ": " << error.what()
-        << exit(FatalError);
-}
-
 } // End namespace Foam
 
 
@@ -180,10 +171,11 @@ Foam::granularModels::surrogateModel::surrogateModel
 :
     granularModel(type, properties, mesh),
     source_(source),
-    model_(load(key, allowed)),
-    material_
+    model_(load(key, allowed, type == "spheres")),
+    inSpace_(model_.components() == 6),
+    grains_
     (
-        msdd::material
+        msdd::grains
         (
             properties.thermalConductivity().value(),
             properties.youngModulus().value(),
@@ -191,11 +183,13 @@ Foam::granularModels::surrogateModel::surrogateModel
         )
     )
 {
-    stateNames_.resize(label(model_.stateSize()));
+    // Spheres have porosity and fabric index besides the columns of their model
+    own_ = inSpace_ ? stateNames_.size() : 0;
+    stateNames_.resize(own_ + label(model_.stateSize()));
     columnNames_.resize(stateNames_.size());
-    forAll(stateNames_, i)
+    for (label i = own_; i < stateNames_.size(); ++i)
     {
-        columnNames_[i] = model_.stateName(i);
+        columnNames_[i] = model_.stateName(i - own_);
         stateNames_[i] = fieldName(columnNames_[i]);
     }
     checkHash(source_, model_.hash());
@@ -205,10 +199,11 @@ Foam::granularModels::surrogateModel::surrogateModel
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-msdd::Surrogate Foam::granularModels::surrogateModel::load
+msdd::Model Foam::granularModels::surrogateModel::load
 (
     const word& key,
-    const string& allowed
+    const string& allowed,
+    const bool spheres
 ) const
 {
     const bool builtin = source_ == "builtin" || source_.startsWith("builtin:");
@@ -216,10 +211,20 @@ msdd::Surrogate Foam::granularModels::surrogateModel::load
 
     try
     {
-        return msdd::Surrogate
+        msdd::Model model
         (
-            builtin ? std::string(source_) : prefix + properties_.path(source_)
+            builtin
+          ? std::string(source_) + (spheres ? ":spheres" : "")
+          : prefix + properties_.path(source_)
         );
+        if ((model.components() == 6) != spheres)
+        {
+            throw std::runtime_error
+            (
+                spheres ? "it is a model of discs" : "it is a model of spheres"
+            );
+        }
+        return model;
     }
     catch (const std::exception& error)
     {
@@ -239,13 +244,120 @@ void Foam::granularModels::surrogateModel::checkNames() const
         {
             FatalIOErrorInFunction(coeffs_)
                 << "Model " << source_ << " has the state column "
-                << model_.stateName(i) << ", whose field " << name
+                << columnNames_[i].c_str() << ", whose field " << name
                 << " the solver or its mesh has itself." << nl
                 << "Allowed: any name except fields of the mesh and "
                 << granularProperties::listed(ownNames()).c_str()
                 << exit(FatalIOError);
         }
     }
+}
+
+
+Foam::granularModels::surrogateModel::columns
+Foam::granularModels::surrogateModel::columnsOf(const query& cells) const
+{
+    const label n = components();
+    const bool inSpace = inSpace_;
+    columns result;
+    result.state = msdd::inputs(cells.state + own_, model_.stateSize());
+    result.strain = msdd::inputs(cells.cellStrain, n);
+    if (cells.cellStrain)
+    {
+        result.rotation = msdd::inputs(cells.rotation, inSpace ? 3 : 1);
+    }
+    if (cells.nextState)
+    {
+        result.nextState =
+            msdd::outputs(cells.nextState + own_, model_.stateSize());
+    }
+    const auto tensor = [&](std::vector<scalar*> plane, std::vector<scalar*> space)
+    {
+        return msdd::outputs((inSpace ? space : plane).data(), n);
+    };
+    result.conductivity = tensor
+    (
+        {cells.conductivityXX, cells.conductivityYY, cells.conductivityXY},
+        {
+            cells.conductivityXX, cells.conductivityYY, cells.conductivityZZ,
+            cells.conductivityXY, cells.conductivityXZ, cells.conductivityYZ
+        }
+    );
+    result.stress = tensor
+    (
+        {cells.stressXX, cells.stressYY, cells.stressXY},
+        {
+            cells.stressXX, cells.stressYY, cells.stressZZ,
+            cells.stressXY, cells.stressXZ, cells.stressYZ
+        }
+    );
+    result.tangent = msdd::outputs(cells.tangent, n*n);
+    result.distance = msdd::outputs(cells.outside, model_.stateSize() + 1);
+    result.step = msdd::step(cells.size, n);
+    result.step.thermal_strain = msdd::input(cells.strain);
+    result.step.total_thermal_strain = msdd::input(cells.totalStrain);
+    result.step.outside = cells.outsideRow;
+    return result;
+}
+
+
+void Foam::granularModels::surrogateModel::advance
+(
+    columns& columns,
+    const msdd_grains& grains
+) const
+{
+    msdd_step& step = columns.step;
+    step.state = msdd::table(columns.state);
+    step.strain = msdd::table(columns.strain);
+    step.rotation = msdd::table(columns.rotation);
+    step.next_state = msdd::table(columns.nextState);
+    step.conductivity = msdd::table(columns.conductivity);
+    step.stress = msdd::table(columns.stress);
+    step.tangent = msdd::table(columns.tangent);
+    step.distance = msdd::table(columns.distance);
+    try
+    {
+        model_.advance(grains, step);
+    }
+    catch (const std::exception& error)
+    {
+        failed("the state of the cells", error);
+    }
+}
+
+
+void Foam::granularModels::surrogateModel::start
+(
+    const msdd_start& start,
+    const msdd_grains& grains,
+    scalar* const* state
+) const
+{
+    const std::vector<msdd_output> columns
+    (
+        msdd::outputs(state + own_, model_.stateSize())
+    );
+    try
+    {
+        model_.initialState(grains, start, columns.data());
+    }
+    catch (const std::exception& error)
+    {
+        failed("the initial state", error);
+    }
+}
+
+
+void Foam::granularModels::surrogateModel::failed
+(
+    const char* what,
+    const std::exception& error
+)
+{
+    FatalErrorInFunction
+        << "The model failed on " << what << ": " << error.what()
+        << exit(FatalError);
 }
 
 
@@ -257,59 +369,30 @@ void Foam::granularModels::surrogateModel::initialState
     scalar* const* state
 )
 {
-    msdd_initial initial(msdd::initial(cells.size));
-    initial.porosity = cells.porosity;
-    initial.fabric_index = cells.fabricIndex;
-    initial.stress_xx = cells.stressXX;
-    initial.stress_yy = cells.stressYY;
-    initial.stress_xy = cells.stressXY;
-    initial.conductivity_xx = cells.conductivityXX;
-    initial.conductivity_yy = cells.conductivityYY;
-    initial.conductivity_xy = cells.conductivityXY;
-
-    try
+    const msdd_input stress[] =
     {
-        model_.initialState(material_, initial, state);
-    }
-    catch (const std::exception& error)
+        msdd::input(cells.stressXX), msdd::input(cells.stressYY),
+        msdd::input(cells.stressXY)
+    };
+    const msdd_input conductivity[] =
     {
-        failed("the initial state", error);
-    }
+        msdd::input(cells.conductivityXX), msdd::input(cells.conductivityYY),
+        msdd::input(cells.conductivityXY)
+    };
+    msdd_start data(msdd::start(cells.size, components()));
+    data.porosity = msdd::input(cells.porosity);
+    data.fabric_index = msdd::input(cells.fabricIndex);
+    data.stress = stress;
+    data.conductivity = conductivity;
+    start(data, grains_, state);
 }
 
 
 Foam::label Foam::granularModels::surrogateModel::advance(const query& cells)
 {
-    msdd_batch batch(msdd::batch(cells.size));
-    batch.state = cells.state;
-    batch.next_state = cells.nextState;
-    batch.thermal_strain = cells.strain;
-    batch.total_thermal_strain = cells.totalStrain;
-    batch.conductivity_xx = cells.conductivityXX;
-    batch.conductivity_yy = cells.conductivityYY;
-    batch.conductivity_xy = cells.conductivityXY;
-    batch.stress_xx = cells.stressXX;
-    batch.stress_yy = cells.stressYY;
-    batch.stress_xy = cells.stressXY;
-    batch.outside = cells.outside;
-    if (cells.cellStrain)
-    {
-        batch.strain_xx = cells.cellStrain[0];
-        batch.strain_yy = cells.cellStrain[1];
-        batch.strain_xy = cells.cellStrain[2];
-        batch.rotation = cells.rotation[0];
-    }
-    batch.tangent = cells.tangent;
-
-    try
-    {
-        model_.advance(material_, batch);
-    }
-    catch (const std::exception& error)
-    {
-        failed("the state of the cells", error);
-    }
-    return label(batch.clamped_cells);
+    columns all(columnsOf(cells));
+    advance(all, grains_);
+    return label(all.step.outside_cells);
 }
 
 
@@ -319,19 +402,9 @@ bool Foam::granularModels::surrogateModel::spread
     scalarField& result
 ) const
 {
-    msdd_batch batch(msdd::batch(cells.size));
-    batch.state = cells.state;
-    batch.thermal_strain = cells.strain;
-    batch.spread = result.data();
-
-    try
-    {
-        model_.advance(material_, batch);
-    }
-    catch (const std::exception& error)
-    {
-        failed("the spread of the cells", error);
-    }
+    columns all(columnsOf(cells));
+    all.step.spread = msdd::output(result.data());
+    advance(all, grains_);
     return result.empty() || !std::isnan(result[0]);
 }
 
@@ -342,7 +415,7 @@ bool Foam::granularModels::surrogateModel::wallFriction
     scalar& slip
 ) const
 {
-    return model_.wallFriction(material_, limit, slip);
+    return model_.wallFriction(grains_, limit, slip);
 }
 
 

@@ -1,6 +1,6 @@
 //! What bindgen makes of `msdd.h`; `cargo test -p msdd-abi --test header` holds it against the header.
 
-pub const MSDD_ABI_VERSION: u32 = 4;
+pub const MSDD_ABI_VERSION: u32 = 5;
 pub const MSDD_PLUGIN_VERSION: u32 = 2;
 pub const MSDD_OK: msdd_status = 0;
 pub const MSDD_INVALID_ARGUMENT: msdd_status = 1;
@@ -14,193 +14,51 @@ pub const MSDD_INTERNAL: msdd_status = 255;
 pub type msdd_status = ::core::ffi::c_uint;
 #[repr(C)]
 #[derive(Debug, Copy, Clone)]
-pub struct msdd_surrogate {
+pub struct msdd_model {
     _unused: [u8; 0],
 }
 #[repr(C)]
 #[derive(Debug, Copy, Clone)]
-pub struct msdd_material {
-    pub struct_size: usize,
-    pub thermal_conductivity: f64,
-    pub young_modulus: f64,
-    pub mean_radius: f64,
+pub struct msdd_input {
+    pub values: *const f64,
+    pub stride: usize,
 }
 #[allow(clippy::unnecessary_operation, clippy::identity_op)]
 const _: () = {
-    ["Size of msdd_material"][::core::mem::size_of::<msdd_material>() - 32usize];
-    ["Alignment of msdd_material"][::core::mem::align_of::<msdd_material>() - 8usize];
+    ["Size of msdd_input"][::core::mem::size_of::<msdd_input>() - 16usize];
+    ["Alignment of msdd_input"][::core::mem::align_of::<msdd_input>() - 8usize];
     [
-        "Offset of field: msdd_material::struct_size",
-    ][::core::mem::offset_of!(msdd_material, struct_size) - 0usize];
+        "Offset of field: msdd_input::values",
+    ][::core::mem::offset_of!(msdd_input, values) - 0usize];
     [
-        "Offset of field: msdd_material::thermal_conductivity",
-    ][::core::mem::offset_of!(msdd_material, thermal_conductivity) - 8usize];
-    [
-        "Offset of field: msdd_material::young_modulus",
-    ][::core::mem::offset_of!(msdd_material, young_modulus) - 16usize];
-    [
-        "Offset of field: msdd_material::mean_radius",
-    ][::core::mem::offset_of!(msdd_material, mean_radius) - 24usize];
+        "Offset of field: msdd_input::stride",
+    ][::core::mem::offset_of!(msdd_input, stride) - 8usize];
 };
 #[repr(C)]
 #[derive(Debug, Copy, Clone)]
-pub struct msdd_batch {
-    pub struct_size: usize,
-    pub cells: usize,
-    pub state: *const *const f64,
-    pub thermal_strain: *const f64,
-    pub total_thermal_strain: *const f64,
-    pub strain_xx: *const f64,
-    pub strain_yy: *const f64,
-    pub strain_xy: *const f64,
-    pub rotation: *const f64,
-    pub next_state: *const *mut f64,
-    pub conductivity_xx: *mut f64,
-    pub conductivity_yy: *mut f64,
-    pub conductivity_xy: *mut f64,
-    pub stress_xx: *mut f64,
-    pub stress_yy: *mut f64,
-    pub stress_xy: *mut f64,
-    pub tangent: *const *mut f64,
-    pub clamped: *mut u8,
-    pub outside: *const *mut f64,
-    pub spread: *mut f64,
-    pub clamped_cells: usize,
+pub struct msdd_output {
+    pub values: *mut f64,
+    pub stride: usize,
 }
 #[allow(clippy::unnecessary_operation, clippy::identity_op)]
 const _: () = {
-    ["Size of msdd_batch"][::core::mem::size_of::<msdd_batch>() - 168usize];
-    ["Alignment of msdd_batch"][::core::mem::align_of::<msdd_batch>() - 8usize];
+    ["Size of msdd_output"][::core::mem::size_of::<msdd_output>() - 16usize];
+    ["Alignment of msdd_output"][::core::mem::align_of::<msdd_output>() - 8usize];
     [
-        "Offset of field: msdd_batch::struct_size",
-    ][::core::mem::offset_of!(msdd_batch, struct_size) - 0usize];
+        "Offset of field: msdd_output::values",
+    ][::core::mem::offset_of!(msdd_output, values) - 0usize];
     [
-        "Offset of field: msdd_batch::cells",
-    ][::core::mem::offset_of!(msdd_batch, cells) - 8usize];
-    [
-        "Offset of field: msdd_batch::state",
-    ][::core::mem::offset_of!(msdd_batch, state) - 16usize];
-    [
-        "Offset of field: msdd_batch::thermal_strain",
-    ][::core::mem::offset_of!(msdd_batch, thermal_strain) - 24usize];
-    [
-        "Offset of field: msdd_batch::total_thermal_strain",
-    ][::core::mem::offset_of!(msdd_batch, total_thermal_strain) - 32usize];
-    [
-        "Offset of field: msdd_batch::strain_xx",
-    ][::core::mem::offset_of!(msdd_batch, strain_xx) - 40usize];
-    [
-        "Offset of field: msdd_batch::strain_yy",
-    ][::core::mem::offset_of!(msdd_batch, strain_yy) - 48usize];
-    [
-        "Offset of field: msdd_batch::strain_xy",
-    ][::core::mem::offset_of!(msdd_batch, strain_xy) - 56usize];
-    [
-        "Offset of field: msdd_batch::rotation",
-    ][::core::mem::offset_of!(msdd_batch, rotation) - 64usize];
-    [
-        "Offset of field: msdd_batch::next_state",
-    ][::core::mem::offset_of!(msdd_batch, next_state) - 72usize];
-    [
-        "Offset of field: msdd_batch::conductivity_xx",
-    ][::core::mem::offset_of!(msdd_batch, conductivity_xx) - 80usize];
-    [
-        "Offset of field: msdd_batch::conductivity_yy",
-    ][::core::mem::offset_of!(msdd_batch, conductivity_yy) - 88usize];
-    [
-        "Offset of field: msdd_batch::conductivity_xy",
-    ][::core::mem::offset_of!(msdd_batch, conductivity_xy) - 96usize];
-    [
-        "Offset of field: msdd_batch::stress_xx",
-    ][::core::mem::offset_of!(msdd_batch, stress_xx) - 104usize];
-    [
-        "Offset of field: msdd_batch::stress_yy",
-    ][::core::mem::offset_of!(msdd_batch, stress_yy) - 112usize];
-    [
-        "Offset of field: msdd_batch::stress_xy",
-    ][::core::mem::offset_of!(msdd_batch, stress_xy) - 120usize];
-    [
-        "Offset of field: msdd_batch::tangent",
-    ][::core::mem::offset_of!(msdd_batch, tangent) - 128usize];
-    [
-        "Offset of field: msdd_batch::clamped",
-    ][::core::mem::offset_of!(msdd_batch, clamped) - 136usize];
-    [
-        "Offset of field: msdd_batch::outside",
-    ][::core::mem::offset_of!(msdd_batch, outside) - 144usize];
-    [
-        "Offset of field: msdd_batch::spread",
-    ][::core::mem::offset_of!(msdd_batch, spread) - 152usize];
-    [
-        "Offset of field: msdd_batch::clamped_cells",
-    ][::core::mem::offset_of!(msdd_batch, clamped_cells) - 160usize];
+        "Offset of field: msdd_output::stride",
+    ][::core::mem::offset_of!(msdd_output, stride) - 8usize];
 };
 #[repr(C)]
 #[derive(Debug, Copy, Clone)]
-pub struct msdd_initial {
+pub struct msdd_grains {
     pub struct_size: usize,
-    pub cells: usize,
-    pub porosity: *const f64,
-    pub fabric_index: *const f64,
-    pub fabric_xy: *const f64,
-    pub stress_xx: *const f64,
-    pub stress_yy: *const f64,
-    pub stress_xy: *const f64,
-    pub conductivity_xx: *const f64,
-    pub conductivity_yy: *const f64,
-    pub conductivity_xy: *const f64,
-}
-#[allow(clippy::unnecessary_operation, clippy::identity_op)]
-const _: () = {
-    ["Size of msdd_initial"][::core::mem::size_of::<msdd_initial>() - 88usize];
-    ["Alignment of msdd_initial"][::core::mem::align_of::<msdd_initial>() - 8usize];
-    [
-        "Offset of field: msdd_initial::struct_size",
-    ][::core::mem::offset_of!(msdd_initial, struct_size) - 0usize];
-    [
-        "Offset of field: msdd_initial::cells",
-    ][::core::mem::offset_of!(msdd_initial, cells) - 8usize];
-    [
-        "Offset of field: msdd_initial::porosity",
-    ][::core::mem::offset_of!(msdd_initial, porosity) - 16usize];
-    [
-        "Offset of field: msdd_initial::fabric_index",
-    ][::core::mem::offset_of!(msdd_initial, fabric_index) - 24usize];
-    [
-        "Offset of field: msdd_initial::fabric_xy",
-    ][::core::mem::offset_of!(msdd_initial, fabric_xy) - 32usize];
-    [
-        "Offset of field: msdd_initial::stress_xx",
-    ][::core::mem::offset_of!(msdd_initial, stress_xx) - 40usize];
-    [
-        "Offset of field: msdd_initial::stress_yy",
-    ][::core::mem::offset_of!(msdd_initial, stress_yy) - 48usize];
-    [
-        "Offset of field: msdd_initial::stress_xy",
-    ][::core::mem::offset_of!(msdd_initial, stress_xy) - 56usize];
-    [
-        "Offset of field: msdd_initial::conductivity_xx",
-    ][::core::mem::offset_of!(msdd_initial, conductivity_xx) - 64usize];
-    [
-        "Offset of field: msdd_initial::conductivity_yy",
-    ][::core::mem::offset_of!(msdd_initial, conductivity_yy) - 72usize];
-    [
-        "Offset of field: msdd_initial::conductivity_xy",
-    ][::core::mem::offset_of!(msdd_initial, conductivity_xy) - 80usize];
-};
-#[repr(C)]
-#[derive(Debug, Copy, Clone)]
-pub struct msdd_spheres {
-    _unused: [u8; 0],
-}
-#[repr(C)]
-#[derive(Debug, Copy, Clone)]
-pub struct msdd_sphere_material {
-    pub struct_size: usize,
-    pub diameter: f64,
-    pub young_modulus: f64,
-    pub poisson_ratio: f64,
     pub conductivity: f64,
+    pub young_modulus: f64,
+    pub radius: f64,
+    pub poisson_ratio: f64,
     pub roughness: f64,
     pub hardness: f64,
     pub gas: *const ::core::ffi::c_char,
@@ -211,133 +69,198 @@ pub struct msdd_sphere_material {
 }
 #[allow(clippy::unnecessary_operation, clippy::identity_op)]
 const _: () = {
+    ["Size of msdd_grains"][::core::mem::size_of::<msdd_grains>() - 96usize];
+    ["Alignment of msdd_grains"][::core::mem::align_of::<msdd_grains>() - 8usize];
     [
-        "Size of msdd_sphere_material",
-    ][::core::mem::size_of::<msdd_sphere_material>() - 96usize];
+        "Offset of field: msdd_grains::struct_size",
+    ][::core::mem::offset_of!(msdd_grains, struct_size) - 0usize];
     [
-        "Alignment of msdd_sphere_material",
-    ][::core::mem::align_of::<msdd_sphere_material>() - 8usize];
+        "Offset of field: msdd_grains::conductivity",
+    ][::core::mem::offset_of!(msdd_grains, conductivity) - 8usize];
     [
-        "Offset of field: msdd_sphere_material::struct_size",
-    ][::core::mem::offset_of!(msdd_sphere_material, struct_size) - 0usize];
+        "Offset of field: msdd_grains::young_modulus",
+    ][::core::mem::offset_of!(msdd_grains, young_modulus) - 16usize];
     [
-        "Offset of field: msdd_sphere_material::diameter",
-    ][::core::mem::offset_of!(msdd_sphere_material, diameter) - 8usize];
+        "Offset of field: msdd_grains::radius",
+    ][::core::mem::offset_of!(msdd_grains, radius) - 24usize];
     [
-        "Offset of field: msdd_sphere_material::young_modulus",
-    ][::core::mem::offset_of!(msdd_sphere_material, young_modulus) - 16usize];
+        "Offset of field: msdd_grains::poisson_ratio",
+    ][::core::mem::offset_of!(msdd_grains, poisson_ratio) - 32usize];
     [
-        "Offset of field: msdd_sphere_material::poisson_ratio",
-    ][::core::mem::offset_of!(msdd_sphere_material, poisson_ratio) - 24usize];
+        "Offset of field: msdd_grains::roughness",
+    ][::core::mem::offset_of!(msdd_grains, roughness) - 40usize];
     [
-        "Offset of field: msdd_sphere_material::conductivity",
-    ][::core::mem::offset_of!(msdd_sphere_material, conductivity) - 32usize];
+        "Offset of field: msdd_grains::hardness",
+    ][::core::mem::offset_of!(msdd_grains, hardness) - 48usize];
     [
-        "Offset of field: msdd_sphere_material::roughness",
-    ][::core::mem::offset_of!(msdd_sphere_material, roughness) - 40usize];
+        "Offset of field: msdd_grains::gas",
+    ][::core::mem::offset_of!(msdd_grains, gas) - 56usize];
     [
-        "Offset of field: msdd_sphere_material::hardness",
-    ][::core::mem::offset_of!(msdd_sphere_material, hardness) - 48usize];
+        "Offset of field: msdd_grains::gas_pressure",
+    ][::core::mem::offset_of!(msdd_grains, gas_pressure) - 64usize];
     [
-        "Offset of field: msdd_sphere_material::gas",
-    ][::core::mem::offset_of!(msdd_sphere_material, gas) - 56usize];
+        "Offset of field: msdd_grains::accommodation",
+    ][::core::mem::offset_of!(msdd_grains, accommodation) - 72usize];
     [
-        "Offset of field: msdd_sphere_material::gas_pressure",
-    ][::core::mem::offset_of!(msdd_sphere_material, gas_pressure) - 64usize];
+        "Offset of field: msdd_grains::emissivity",
+    ][::core::mem::offset_of!(msdd_grains, emissivity) - 80usize];
     [
-        "Offset of field: msdd_sphere_material::accommodation",
-    ][::core::mem::offset_of!(msdd_sphere_material, accommodation) - 72usize];
-    [
-        "Offset of field: msdd_sphere_material::emissivity",
-    ][::core::mem::offset_of!(msdd_sphere_material, emissivity) - 80usize];
-    [
-        "Offset of field: msdd_sphere_material::size_spread",
-    ][::core::mem::offset_of!(msdd_sphere_material, size_spread) - 88usize];
+        "Offset of field: msdd_grains::size_spread",
+    ][::core::mem::offset_of!(msdd_grains, size_spread) - 88usize];
 };
 #[repr(C)]
 #[derive(Debug, Copy, Clone)]
-pub struct msdd_sphere_batch {
+pub struct msdd_step {
     pub struct_size: usize,
     pub cells: usize,
-    pub state: *const *const f64,
-    pub thermal_strain: *const f64,
-    pub strain: *const *const f64,
-    pub rotation: *const *const f64,
-    pub temperature: *const f64,
-    pub solid_conductivity: *const f64,
-    pub emissivity: *const f64,
-    pub next_state: *const *mut f64,
-    pub stress: *const *mut f64,
-    pub tangent: *const *mut f64,
-    pub conductivity: *const *mut f64,
-    pub gas_conductivity: *mut f64,
-    pub radiation_conductivity: *mut f64,
-    pub solid_fraction: *mut f64,
+    pub components: usize,
+    pub state: *const msdd_input,
+    pub thermal_strain: msdd_input,
+    pub total_thermal_strain: msdd_input,
+    pub strain: *const msdd_input,
+    pub rotation: *const msdd_input,
+    pub temperature: msdd_input,
+    pub solid_conductivity: msdd_input,
+    pub emissivity: msdd_input,
+    pub next_state: *const msdd_output,
+    pub stress: *const msdd_output,
+    pub tangent: *const msdd_output,
+    pub conductivity: *const msdd_output,
+    pub gas_conductivity: msdd_output,
+    pub radiation_conductivity: msdd_output,
+    pub solid_fraction: msdd_output,
+    pub spread: msdd_output,
+    pub distance: *const msdd_output,
     pub outside: *mut u8,
     pub outside_cells: usize,
 }
 #[allow(clippy::unnecessary_operation, clippy::identity_op)]
 const _: () = {
+    ["Size of msdd_step"][::core::mem::size_of::<msdd_step>() - 248usize];
+    ["Alignment of msdd_step"][::core::mem::align_of::<msdd_step>() - 8usize];
     [
-        "Size of msdd_sphere_batch",
-    ][::core::mem::size_of::<msdd_sphere_batch>() - 144usize];
+        "Offset of field: msdd_step::struct_size",
+    ][::core::mem::offset_of!(msdd_step, struct_size) - 0usize];
     [
-        "Alignment of msdd_sphere_batch",
-    ][::core::mem::align_of::<msdd_sphere_batch>() - 8usize];
+        "Offset of field: msdd_step::cells",
+    ][::core::mem::offset_of!(msdd_step, cells) - 8usize];
     [
-        "Offset of field: msdd_sphere_batch::struct_size",
-    ][::core::mem::offset_of!(msdd_sphere_batch, struct_size) - 0usize];
+        "Offset of field: msdd_step::components",
+    ][::core::mem::offset_of!(msdd_step, components) - 16usize];
     [
-        "Offset of field: msdd_sphere_batch::cells",
-    ][::core::mem::offset_of!(msdd_sphere_batch, cells) - 8usize];
+        "Offset of field: msdd_step::state",
+    ][::core::mem::offset_of!(msdd_step, state) - 24usize];
     [
-        "Offset of field: msdd_sphere_batch::state",
-    ][::core::mem::offset_of!(msdd_sphere_batch, state) - 16usize];
+        "Offset of field: msdd_step::thermal_strain",
+    ][::core::mem::offset_of!(msdd_step, thermal_strain) - 32usize];
     [
-        "Offset of field: msdd_sphere_batch::thermal_strain",
-    ][::core::mem::offset_of!(msdd_sphere_batch, thermal_strain) - 24usize];
+        "Offset of field: msdd_step::total_thermal_strain",
+    ][::core::mem::offset_of!(msdd_step, total_thermal_strain) - 48usize];
     [
-        "Offset of field: msdd_sphere_batch::strain",
-    ][::core::mem::offset_of!(msdd_sphere_batch, strain) - 32usize];
+        "Offset of field: msdd_step::strain",
+    ][::core::mem::offset_of!(msdd_step, strain) - 64usize];
     [
-        "Offset of field: msdd_sphere_batch::rotation",
-    ][::core::mem::offset_of!(msdd_sphere_batch, rotation) - 40usize];
+        "Offset of field: msdd_step::rotation",
+    ][::core::mem::offset_of!(msdd_step, rotation) - 72usize];
     [
-        "Offset of field: msdd_sphere_batch::temperature",
-    ][::core::mem::offset_of!(msdd_sphere_batch, temperature) - 48usize];
+        "Offset of field: msdd_step::temperature",
+    ][::core::mem::offset_of!(msdd_step, temperature) - 80usize];
     [
-        "Offset of field: msdd_sphere_batch::solid_conductivity",
-    ][::core::mem::offset_of!(msdd_sphere_batch, solid_conductivity) - 56usize];
+        "Offset of field: msdd_step::solid_conductivity",
+    ][::core::mem::offset_of!(msdd_step, solid_conductivity) - 96usize];
     [
-        "Offset of field: msdd_sphere_batch::emissivity",
-    ][::core::mem::offset_of!(msdd_sphere_batch, emissivity) - 64usize];
+        "Offset of field: msdd_step::emissivity",
+    ][::core::mem::offset_of!(msdd_step, emissivity) - 112usize];
     [
-        "Offset of field: msdd_sphere_batch::next_state",
-    ][::core::mem::offset_of!(msdd_sphere_batch, next_state) - 72usize];
+        "Offset of field: msdd_step::next_state",
+    ][::core::mem::offset_of!(msdd_step, next_state) - 128usize];
     [
-        "Offset of field: msdd_sphere_batch::stress",
-    ][::core::mem::offset_of!(msdd_sphere_batch, stress) - 80usize];
+        "Offset of field: msdd_step::stress",
+    ][::core::mem::offset_of!(msdd_step, stress) - 136usize];
     [
-        "Offset of field: msdd_sphere_batch::tangent",
-    ][::core::mem::offset_of!(msdd_sphere_batch, tangent) - 88usize];
+        "Offset of field: msdd_step::tangent",
+    ][::core::mem::offset_of!(msdd_step, tangent) - 144usize];
     [
-        "Offset of field: msdd_sphere_batch::conductivity",
-    ][::core::mem::offset_of!(msdd_sphere_batch, conductivity) - 96usize];
+        "Offset of field: msdd_step::conductivity",
+    ][::core::mem::offset_of!(msdd_step, conductivity) - 152usize];
     [
-        "Offset of field: msdd_sphere_batch::gas_conductivity",
-    ][::core::mem::offset_of!(msdd_sphere_batch, gas_conductivity) - 104usize];
+        "Offset of field: msdd_step::gas_conductivity",
+    ][::core::mem::offset_of!(msdd_step, gas_conductivity) - 160usize];
     [
-        "Offset of field: msdd_sphere_batch::radiation_conductivity",
-    ][::core::mem::offset_of!(msdd_sphere_batch, radiation_conductivity) - 112usize];
+        "Offset of field: msdd_step::radiation_conductivity",
+    ][::core::mem::offset_of!(msdd_step, radiation_conductivity) - 176usize];
     [
-        "Offset of field: msdd_sphere_batch::solid_fraction",
-    ][::core::mem::offset_of!(msdd_sphere_batch, solid_fraction) - 120usize];
+        "Offset of field: msdd_step::solid_fraction",
+    ][::core::mem::offset_of!(msdd_step, solid_fraction) - 192usize];
     [
-        "Offset of field: msdd_sphere_batch::outside",
-    ][::core::mem::offset_of!(msdd_sphere_batch, outside) - 128usize];
+        "Offset of field: msdd_step::spread",
+    ][::core::mem::offset_of!(msdd_step, spread) - 208usize];
     [
-        "Offset of field: msdd_sphere_batch::outside_cells",
-    ][::core::mem::offset_of!(msdd_sphere_batch, outside_cells) - 136usize];
+        "Offset of field: msdd_step::distance",
+    ][::core::mem::offset_of!(msdd_step, distance) - 224usize];
+    [
+        "Offset of field: msdd_step::outside",
+    ][::core::mem::offset_of!(msdd_step, outside) - 232usize];
+    [
+        "Offset of field: msdd_step::outside_cells",
+    ][::core::mem::offset_of!(msdd_step, outside_cells) - 240usize];
+};
+#[repr(C)]
+#[derive(Debug, Copy, Clone)]
+pub struct msdd_start {
+    pub struct_size: usize,
+    pub cells: usize,
+    pub components: usize,
+    pub porosity: msdd_input,
+    pub fabric_index: msdd_input,
+    pub fabric_xy: msdd_input,
+    pub solid_fraction: msdd_input,
+    pub stress: *const msdd_input,
+    pub conductivity: *const msdd_input,
+    pub fabric: *const msdd_input,
+    pub coordination: msdd_input,
+    pub mobilised: msdd_input,
+}
+#[allow(clippy::unnecessary_operation, clippy::identity_op)]
+const _: () = {
+    ["Size of msdd_start"][::core::mem::size_of::<msdd_start>() - 144usize];
+    ["Alignment of msdd_start"][::core::mem::align_of::<msdd_start>() - 8usize];
+    [
+        "Offset of field: msdd_start::struct_size",
+    ][::core::mem::offset_of!(msdd_start, struct_size) - 0usize];
+    [
+        "Offset of field: msdd_start::cells",
+    ][::core::mem::offset_of!(msdd_start, cells) - 8usize];
+    [
+        "Offset of field: msdd_start::components",
+    ][::core::mem::offset_of!(msdd_start, components) - 16usize];
+    [
+        "Offset of field: msdd_start::porosity",
+    ][::core::mem::offset_of!(msdd_start, porosity) - 24usize];
+    [
+        "Offset of field: msdd_start::fabric_index",
+    ][::core::mem::offset_of!(msdd_start, fabric_index) - 40usize];
+    [
+        "Offset of field: msdd_start::fabric_xy",
+    ][::core::mem::offset_of!(msdd_start, fabric_xy) - 56usize];
+    [
+        "Offset of field: msdd_start::solid_fraction",
+    ][::core::mem::offset_of!(msdd_start, solid_fraction) - 72usize];
+    [
+        "Offset of field: msdd_start::stress",
+    ][::core::mem::offset_of!(msdd_start, stress) - 88usize];
+    [
+        "Offset of field: msdd_start::conductivity",
+    ][::core::mem::offset_of!(msdd_start, conductivity) - 96usize];
+    [
+        "Offset of field: msdd_start::fabric",
+    ][::core::mem::offset_of!(msdd_start, fabric) - 104usize];
+    [
+        "Offset of field: msdd_start::coordination",
+    ][::core::mem::offset_of!(msdd_start, coordination) - 112usize];
+    [
+        "Offset of field: msdd_start::mobilised",
+    ][::core::mem::offset_of!(msdd_start, mobilised) - 128usize];
 };
 #[repr(C)]
 #[derive(Debug, Copy, Clone)]
@@ -718,83 +641,50 @@ unsafe extern "C" {
     pub fn msdd_version() -> *const ::core::ffi::c_char;
     pub fn msdd_last_error() -> *const ::core::ffi::c_char;
     pub fn msdd_text_free(text: *mut ::core::ffi::c_char);
-    pub fn msdd_surrogate_load(
+    pub fn msdd_model_load(
         source: *const ::core::ffi::c_char,
-        out: *mut *mut msdd_surrogate,
+        out: *mut *mut msdd_model,
     ) -> i32;
-    pub fn msdd_surrogate_with_conductivity(
-        surrogate: *const msdd_surrogate,
+    pub fn msdd_model_with_conductivity(
+        model: *const msdd_model,
         kind: *const ::core::ffi::c_char,
-        out: *mut *mut msdd_surrogate,
+        out: *mut *mut msdd_model,
     ) -> i32;
-    pub fn msdd_surrogate_hash(
-        surrogate: *const msdd_surrogate,
-    ) -> *const ::core::ffi::c_char;
-    pub fn msdd_surrogate_describe(
-        surrogate: *const msdd_surrogate,
-    ) -> *const ::core::ffi::c_char;
-    pub fn msdd_surrogate_state_size(surrogate: *const msdd_surrogate) -> usize;
-    pub fn msdd_surrogate_state_name(
-        surrogate: *const msdd_surrogate,
+    pub fn msdd_model_hash(model: *const msdd_model) -> *const ::core::ffi::c_char;
+    pub fn msdd_model_describe(model: *const msdd_model) -> *const ::core::ffi::c_char;
+    pub fn msdd_model_state_size(model: *const msdd_model) -> usize;
+    pub fn msdd_model_state_name(
+        model: *const msdd_model,
         column: usize,
     ) -> *const ::core::ffi::c_char;
-    pub fn msdd_surrogate_has_tangent(surrogate: *const msdd_surrogate) -> i32;
-    pub fn msdd_surrogate_wall_friction(
-        surrogate: *const msdd_surrogate,
-        material: *const msdd_material,
+    pub fn msdd_model_components(model: *const msdd_model) -> usize;
+    pub fn msdd_model_has_tangent(model: *const msdd_model) -> i32;
+    pub fn msdd_model_wall_friction(
+        model: *const msdd_model,
+        material: *const msdd_grains,
         limit: *mut f64,
         slip: *mut f64,
     ) -> i32;
-    pub fn msdd_surrogate_initial_state(
-        surrogate: *const msdd_surrogate,
-        material: *const msdd_material,
-        initial: *const msdd_initial,
-        state: *const *mut f64,
+    pub fn msdd_model_initial_state(
+        model: *const msdd_model,
+        material: *const msdd_grains,
+        start: *const msdd_start,
+        state: *const msdd_output,
     ) -> i32;
-    pub fn msdd_surrogate_advance(
-        surrogate: *const msdd_surrogate,
-        material: *const msdd_material,
-        batch: *mut msdd_batch,
+    pub fn msdd_model_advance(
+        model: *const msdd_model,
+        material: *const msdd_grains,
+        step: *mut msdd_step,
     ) -> i32;
-    pub fn msdd_surrogate_solid_fraction(
-        surrogate: *const msdd_surrogate,
+    pub fn msdd_model_solid_fraction(
+        model: *const msdd_model,
         cells: usize,
         porosity: *const f64,
         solid_fraction: *mut f64,
     ) -> i32;
-    pub fn msdd_surrogate_free(surrogate: *mut msdd_surrogate);
-    pub fn msdd_spheres_load(
-        source: *const ::core::ffi::c_char,
-        out: *mut *mut msdd_spheres,
-    ) -> i32;
-    pub fn msdd_spheres_hash(spheres: *const msdd_spheres) -> *const ::core::ffi::c_char;
-    pub fn msdd_spheres_describe(
-        spheres: *const msdd_spheres,
-    ) -> *const ::core::ffi::c_char;
-    pub fn msdd_spheres_state_size(spheres: *const msdd_spheres) -> usize;
-    pub fn msdd_spheres_state_name(
-        spheres: *const msdd_spheres,
-        column: usize,
-    ) -> *const ::core::ffi::c_char;
-    pub fn msdd_spheres_initial_state(
-        spheres: *const msdd_spheres,
-        material: *const msdd_sphere_material,
-        cells: usize,
-        solid_fraction: *const f64,
-        stress: *const *const f64,
-        coordination: *const f64,
-        mobilised: *const f64,
-        fabric: *const *const f64,
-        state: *const *mut f64,
-    ) -> i32;
-    pub fn msdd_spheres_advance(
-        spheres: *const msdd_spheres,
-        material: *const msdd_sphere_material,
-        batch: *mut msdd_sphere_batch,
-    ) -> i32;
-    pub fn msdd_spheres_free(spheres: *mut msdd_spheres);
-    pub fn msdd_spheres_wall_resistance(
-        material: *const msdd_sphere_material,
+    pub fn msdd_model_free(model: *mut msdd_model);
+    pub fn msdd_wall_resistance(
+        material: *const msdd_grains,
         wall: *const msdd_sphere_wall,
         faces: usize,
         stress: *const f64,

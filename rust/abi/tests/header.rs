@@ -6,6 +6,7 @@ fn bindings() -> String {
     let header = Path::new(env!("CARGO_MANIFEST_DIR")).join("../capi/include/msdd.h");
     let made = bindgen::Builder::default()
         .header(header.to_string_lossy())
+        .clang_arg("-DMSDD_WITHOUT_V4")
         .allowlist_item("(msdd|MSDD)_.*")
         .use_core()
         .default_enum_style(bindgen::EnumVariation::Consts)

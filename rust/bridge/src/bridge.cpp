@@ -15,12 +15,12 @@ namespace
 
 const int traps = FE_DIVBYZERO | FE_INVALID | FE_OVERFLOW;
 
-std::vector<double*> columns(rust::Vec<double>& all, std::size_t count)
+std::vector<msdd_output> columns(rust::Vec<double>& all, std::size_t count)
 {
-    std::vector<double*> result;
+    std::vector<msdd_output> result;
     for (std::size_t k = 0; k < count; ++k)
     {
-        result.push_back(all.data() + k*(all.size()/count));
+        result.push_back(msdd::output(all.data() + k*(all.size()/count)));
     }
     return result;
 }
@@ -40,18 +40,18 @@ rust::Vec<double> filled(std::size_t size)
 
 std::unique_ptr<Model> load(rust::Str source)
 {
-    return std::unique_ptr<Model>(new Model(msdd::Surrogate(std::string(source))));
+    return std::unique_ptr<Model>(new Model(msdd::Model(std::string(source))));
 }
 
 std::unique_ptr<Model> moved(Model& model)
 {
-    return std::unique_ptr<Model>(new Model(std::move(model.surrogate())));
+    return std::unique_ptr<Model>(new Model(std::move(model.wrapper())));
 }
 
 void move_into_itself(Model& model)
 {
-    msdd::Surrogate& itself = model.surrogate();
-    model.surrogate() = std::move(itself);
+    msdd::Model& itself = model.wrapper();
+    model.wrapper() = std::move(itself);
 }
 
 rust::Vec<double> Model::initial_state
@@ -60,21 +60,21 @@ rust::Vec<double> Model::initial_state
     rust::Slice<const double> fabricIndex
 ) const
 {
-    msdd_initial initial = msdd::initial(porosity.size());
-    initial.porosity = porosity.data();
-    initial.fabric_index = fabricIndex.data();
+    msdd_start start = msdd::start(porosity.size(), 3);
+    start.porosity = msdd::input(porosity.data());
+    start.fabric_index = msdd::input(fabricIndex.data());
     rust::Vec<double> state = filled(state_size()*porosity.size());
-    surrogate_.initialState(msdd::material(1, 1, 1), initial, columns(state, state_size()).data());
+    model_.initialState(msdd::grains(1, 1, 1), start, columns(state, state_size()).data());
     return state;
 }
 
-void Model::advance(Cells& cells) const { advance(cells, sizeof(msdd_batch)); }
+void Model::advance(Cells& cells) const { advance(cells, sizeof(msdd_step)); }
 
 rust::Vec<double> Model::wall_friction(double meanRadius) const
 {
     double limit = -7, slip = -7;
     rust::Vec<double> result;
-    if (surrogate_.wallFriction(msdd::material(1, 1, meanRadius), limit, slip))
+    if (model_.wallFriction(msdd::grains(1, 1, meanRadius), limit, slip))
     {
         result.push_back(limit);
         result.push_back(slip);
@@ -86,22 +86,29 @@ rust::Vec<double> Model::wall_friction(double meanRadius) const
     return result;
 }
 
-void Model::advance_with_wrong_size(Cells& cells) const { advance(cells, sizeof(msdd_batch) - 8); }
+void Model::advance_with_wrong_size(Cells& cells) const { advance(cells, sizeof(msdd_step) - 8); }
 
 void Model::advance(Cells& cells, std::size_t structSize) const
 {
-    msdd_batch batch = msdd::batch(cells.thermal_strain.size());
-    batch.struct_size = structSize;
-    const std::vector<double*> state = columns(cells.state, state_size());
-    batch.state = state.data();
-    batch.next_state = state.data();
-    batch.thermal_strain = cells.thermal_strain.data();
-    batch.conductivity_xx = cells.conductivity_xx.data();
-    batch.conductivity_yy = cells.conductivity_yy.data();
-    batch.stress_xx = cells.stress_xx.data();
-    batch.stress_yy = cells.stress_yy.data();
-    surrogate_.advance(msdd::material(1, 1, 1), batch);
-    cells.clamped_cells = batch.clamped_cells;
+    msdd_step step = msdd::step(cells.thermal_strain.size(), 3);
+    step.struct_size = structSize;
+    const std::vector<msdd_output> state = columns(cells.state, state_size());
+    std::vector<msdd_input> before;
+    for (const msdd_output& column : state)
+    {
+        before.push_back(msdd::input(column.values));
+    }
+    const msdd_output conductivity[] =
+        {msdd::output(cells.conductivity_xx.data()), msdd::output(cells.conductivity_yy.data()), msdd::output(nullptr)};
+    const msdd_output stress[] =
+        {msdd::output(cells.stress_xx.data()), msdd::output(cells.stress_yy.data()), msdd::output(nullptr)};
+    step.state = before.data();
+    step.next_state = state.data();
+    step.thermal_strain = msdd::input(cells.thermal_strain.data());
+    step.conductivity = conductivity;
+    step.stress = stress;
+    model_.advance(msdd::grains(1, 1, 1), step);
+    cells.clamped_cells = step.outside_cells;
 }
 
 rust::Vec<double> strained_rves(double strain)

@@ -14,21 +14,21 @@ struct Cells;
 class Model
 {
 public:
-    explicit Model(msdd::Surrogate&& surrogate) : surrogate_(std::move(surrogate)) {}
+    explicit Model(msdd::Model&& model) : model_(std::move(model)) {}
 
-    std::size_t state_size() const { return surrogate_.stateSize(); }
-    rust::String hash() const { return surrogate_.hash(); }
+    std::size_t state_size() const { return model_.stateSize(); }
+    rust::String hash() const { return model_.hash(); }
     rust::Vec<double> initial_state(rust::Slice<const double> porosity, rust::Slice<const double> fabricIndex) const;
     void advance(Cells& cells) const;
     void advance_with_wrong_size(Cells& cells) const;
     rust::Vec<double> wall_friction(double meanRadius) const;
 
-    msdd::Surrogate& surrogate() { return surrogate_; }
+    msdd::Model& wrapper() { return model_; }
 
 private:
     void advance(Cells& cells, std::size_t structSize) const;
 
-    msdd::Surrogate surrogate_;
+    msdd::Model model_;
 };
 
 std::unique_ptr<Model> load(rust::Str source);

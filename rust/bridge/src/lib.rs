@@ -23,7 +23,7 @@ pub mod ffi {
     unsafe extern "C++" {
         include!("msdd-bridge/src/bridge.hpp");
 
-        /// An `msdd::Surrogate`.
+        /// An `msdd::Model`.
         type Model;
         fn load(source: &str) -> Result<UniquePtr<Model>>;
         fn state_size(self: &Model) -> usize;
@@ -52,7 +52,7 @@ pub mod ffi {
     }
 }
 
-// SAFETY: the header allows any number of threads to use a surrogate at a time, and the wrapper adds no state.
+// SAFETY: the header allows any number of threads to use a model at a time, and the wrapper adds no state.
 unsafe impl Sync for ffi::Model {}
 // SAFETY: as above; freeing on another thread is a plain call.
 unsafe impl Send for ffi::Model {}

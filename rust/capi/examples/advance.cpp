@@ -7,28 +7,31 @@
 int main(int argc, char** argv)
 try
 {
-    const msdd::Surrogate model(argc > 1 ? argv[1] : "builtin");
-    const msdd_material grains = msdd::material(100, 1e7, 5e-3);
+    const msdd::Model model(argc > 1 ? argv[1] : "builtin");
+    const msdd_grains grains = msdd::grains(100, 1e7, 5e-3);
     const double porosity = 0.125, fabricIndex = 0.05, strain = 0.01;
-    double kxx, kyy, sxx, syy;
     std::vector<double> values(model.stateSize());
-    std::vector<double*> state;
-    for (double& value : values) { state.push_back(&value); }
+    std::vector<double*> columns;
+    for (double& value : values) { columns.push_back(&value); }
+    const std::vector<msdd_output> state = msdd::outputs(columns.data(), columns.size());
+    const std::vector<msdd_input> before = msdd::inputs(columns.data(), columns.size());
 
-    msdd_initial initial = msdd::initial(1);
-    initial.porosity = &porosity;
-    initial.fabric_index = &fabricIndex;
-    model.initialState(grains, initial, state.data());
+    msdd_start start = msdd::start(1, 3);
+    start.porosity = msdd::input(&porosity);
+    start.fabric_index = msdd::input(&fabricIndex);
+    model.initialState(grains, start, state.data());
 
-    msdd_batch batch = msdd::batch(1);
-    batch.state = batch.next_state = state.data();
-    batch.thermal_strain = batch.total_thermal_strain = &strain;
-    batch.conductivity_xx = &kxx;
-    batch.conductivity_yy = &kyy;
-    batch.stress_xx = &sxx;
-    batch.stress_yy = &syy;
-    model.advance(grains, batch);
-    std::printf("porosity %.5f, K %.3f %.3f W/(m K), pressure %.1f Pa\n", values[0], kxx, kyy, (sxx + syy)/2);
+    double k[3], s[3];
+    const msdd_output conductivity[] = {msdd::output(&k[0]), msdd::output(&k[1]), msdd::output(&k[2])};
+    const msdd_output stress[] = {msdd::output(&s[0]), msdd::output(&s[1]), msdd::output(&s[2])};
+    msdd_step step = msdd::step(1, 3);
+    step.state = before.data();
+    step.next_state = state.data();
+    step.thermal_strain = step.total_thermal_strain = msdd::input(&strain);
+    step.conductivity = conductivity;
+    step.stress = stress;
+    model.advance(grains, step);
+    std::printf("porosity %.5f, K %.3f %.3f W/(m K), pressure %.1f Pa\n", values[0], k[0], k[1], (s[0] + s[1])/2);
 }
 catch (const msdd::Error& error)
 {

@@ -7,6 +7,9 @@
 
 #include <stddef.h>
 #include <stdint.h>
+#ifndef MSDD_WITHOUT_V4
+#include <string.h>
+#endif
 
 #ifdef __cplusplus
 extern "C" {
@@ -16,11 +19,11 @@ extern "C" {
  *  - Every function that can fail returns an int32_t status: MSDD_OK (0) or one of enum msdd_status.
  *    The text of the last failure on the calling thread is in msdd_last_error().
  *  - Outputs are written only on success.
- *  - Handles are opaque pointers. A surrogate never changes, so any number of threads may use the same one at the same
+ *  - Handles are opaque pointers. A model never changes, so any number of threads may use the same one at the same
  *    time. An RVE changes, so only one thread at a time may use it.
  *  - Every struct starts with struct_size. Set it to sizeof the struct, and every member that you do not use to 0.
  *  - A cell is a point of the heat problem with its own state, for example a cell of a finite volume mesh.
- *  - A column is a contiguous array with one value per cell.
+ *  - A column is an array with one value per cell; in msdd_input and msdd_output with a stride, else contiguous.
  *  - SI units; strains have no unit. Strain: extension positive. Stress: compression positive.
  *  - No function prints or handles signals, and none starts threads unless their number is one of its arguments.
  *  - Floating-point exceptions must be masked while a function runs (the IEEE default). A program that traps them
@@ -28,7 +31,7 @@ extern "C" {
  */
 
 /** Version of this interface. Compare with msdd_abi_version() before anything else is called. */
-#define MSDD_ABI_VERSION 4u
+#define MSDD_ABI_VERSION 5u
 
 enum msdd_status {
     MSDD_OK = 0,
@@ -64,222 +67,177 @@ const char *msdd_last_error(void);
 /** Frees a text that a function of this header returned through a char **; NULL is allowed. */
 void msdd_text_free(char *text);
 
-/* ------------------------------------------------------------------------------------------------ surrogate models */
+/* ------------------------------------------------------------------------------------------------------- models */
 
-/** A loaded surrogate model: opaque, immutable. */
-typedef struct msdd_surrogate msdd_surrogate;
+/** A loaded model of discs, of spheres, or of a plug-in: opaque, immutable. */
+typedef struct msdd_model msdd_model;
 
-/** Scales that turn the model's dimensionless results into SI units. */
-typedef struct msdd_material {
-    size_t struct_size;          /**< sizeof(msdd_material) */
-    double thermal_conductivity; /**< k of the grains [W/(m K)], 1e-12 to 1e12 */
-    double young_modulus;        /**< E of the grains [Pa], 1e-9 to 1e15 */
-    double mean_radius;          /**< mean grain radius in the initial state, r [m], 1e-12 to 1e6 */
-} msdd_material;
+/** A column that is read: the value of cell i is values[i * stride]. A contiguous array has the stride 1, a component in an array
+ *  of symmetric tensors 6. A stride of 0 is refused. */
+typedef struct msdd_input {
+    const double *values; /**< NULL: not given */
+    size_t stride;        /**< in doubles */
+} msdd_input;
 
-/** Inputs and outputs of one step of a batch of cells, in columns of length `cells`: steps 1 and 2 of Algorithm 1 of the
- *  paper.
- *
- *  The state of a cell is what the model carries from step to step: msdd_surrogate_state_size columns without unit, named
- *  by msdd_surrogate_state_name. The first two are porosity (the overlap of two grains counted once) and fabric_index
- *  (F_xx - F_yy, the difference of the diagonal components of the fabric tensor). The same column may be given as input
- *  and as output. Any finite state is accepted. An input outside of the trained range, also one that no packing has, such
- *  as a porosity of 2, is flagged in `clamped` and `outside`; networks are evaluated at the nearest end of that range, the
- *  law of the increments continues as far as its numbers make sense. */
-typedef struct msdd_batch {
-    size_t struct_size;                 /**< sizeof(msdd_batch) */
-    size_t cells;                       /**< length of every column */
-    /* in */
-    const double *const *state;         /**< state columns before the step */
-    const double *thermal_strain;       /**< radial strain of the grains in this step, relative to the current radius */
-    const double *total_thermal_strain; /**< alpha (T - T0), this step included; NULL = 0 everywhere */
-    const double *strain_xx;            /**< strain of the cell along x in this step; above -0.2, to 0.2; NULL = 0. This and
-                                             the next three need a model that has a tangent */
-    const double *strain_yy;            /**< the same along y; NULL = 0 */
-    const double *strain_xy;            /**< twice the shear strain, du_x/dy + du_y/dx; NULL = 0 */
-    const double *rotation;             /**< angle by which the cell turns, counter-clockwise positive,
-                                             (du_y/dx - du_x/dy)/2 [rad]; NULL = 0 */
-    /* out; any of them may be NULL when not wanted, and so may single columns of next_state, tangent and outside */
-    double *const *next_state;          /**< state columns after the step */
-    double *conductivity_xx;            /**< K_xx after the step [W/(m K)] */
-    double *conductivity_yy;            /**< K_yy after the step [W/(m K)] */
-    double *conductivity_xy;            /**< K_xy after the step [W/(m K)]; 0 for a model without tangent */
-    double *stress_xx;                  /**< sigma_xx after the step [Pa] */
-    double *stress_yy;                  /**< sigma_yy after the step [Pa] */
-    double *stress_xy;                  /**< sigma_xy after the step [Pa]; 0 for a model without tangent */
-    double *const *tangent;             /**< nine columns [Pa], row by row: -d sigma_i/d strain_j at the end of the step, with
-                                             i, j = xx, yy, xy. Only for a model that has a tangent. It is the derivative of
-                                             exactly the stress that is answered, and where grains slide it is not symmetric */
-    uint8_t *clamped;                   /**< 1 where an input lay outside the trained range, else 0 */
-    double *const *outside;             /**< state_size + 1 columns, the last for thermal_strain: distance of the input
-                                             from the trained range, in the input's own unit, negative below and positive
-                                             above; 0 inside */
-    double *spread;                     /**< relative standard deviation of K between RVEs of equal state; NaN if the
-                                             model does not know it. Takes longer than all other outputs together */
-    size_t clamped_cells;               /**< number of cells with an input outside the trained range */
-} msdd_batch;
+/** A column that is written, at a stride like those of msdd_input. */
+typedef struct msdd_output {
+    double *values; /**< NULL: not wanted */
+    size_t stride;  /**< in doubles */
+} msdd_output;
 
-/** What is known of the cells at the start. For a quantity that is not given, the mean of the packed states that the model
- *  was trained with is used. A value outside its range is refused, with column and index in the message: an initial state
- *  that no packing has is a mistake, whereas a state may leave the trained range in the course of a calculation. */
-typedef struct msdd_initial {
-    size_t struct_size;                /**< sizeof(msdd_initial) */
-    size_t cells;                      /**< length of every column */
-    const double *porosity;            /**< overlaps counted once, 0 to 1 */
-    const double *fabric_index;        /**< F_xx - F_yy, -1 to 1 */
-    const double *fabric_xy;           /**< F_xy, -1 to 1; NULL = 0 */
-    const double *stress_xx;           /**< [Pa], -1e30 to 1e30; NULL = not known; both or none */
-    const double *stress_yy;           /**< [Pa] */
-    const double *stress_xy;           /**< [Pa]; NULL = 0 */
-    const double *conductivity_xx;     /**< [W/(m K)], above 0, to 1e30; NULL = not known; both or none. A packing that
-                                            conducts better than others of its state keeps doing so */
-    const double *conductivity_yy;     /**< [W/(m K)] */
-    const double *conductivity_xy;     /**< [W/(m K)]; NULL = 0 */
-} msdd_initial;
-
-/** Loads a model. `source`: NULL or "builtin" for the default model compiled into the library ("builtin:increment";
- *  "builtin:paper" is the network of the paper); "plugin:" and the path of a shared library that defines
- *  msdd_plugin_v2_table, see the end of this header; else the path of a model file, which contains data and no code. On
- *  success *out owns the model; free it with msdd_surrogate_free.
- *  Loading a plug-in runs its code, with all rights of this process: pass no `source` that a stranger chose. */
-int32_t msdd_surrogate_load(const char *source, msdd_surrogate **out);
-
-/** Makes a copy of a model that computes another kind of conductivity: "affine" (Eq. 9 of the paper, an upper bound) or
- *  "network" (the resistor network of the contacts solved). msdd_surrogate_describe lists the kinds that the model was
- *  trained for as "conductivities"; any other fails with MSDD_INVALID_ARGUMENT. The state columns are
- *  those of the original. On success *out owns the new handle; either handle may be freed first. */
-int32_t msdd_surrogate_with_conductivity(const msdd_surrogate *surrogate, const char *kind, msdd_surrogate **out);
-
-/** SHA-256 of the bytes of the model file or plug-in, 64 hexadecimal digits. Owned by the model. NULL for a null handle. */
-const char *msdd_surrogate_hash(const msdd_surrogate *surrogate);
-
-/** Description of the model (kind, name, state columns, conductivities, trained_range, provenance) as one JSON object. Owned by the
- *  model. NULL for a null handle. */
-const char *msdd_surrogate_describe(const msdd_surrogate *surrogate);
-
-/** Number of state columns, at least 2; 0 for a null handle. */
-size_t msdd_surrogate_state_size(const msdd_surrogate *surrogate);
-
-/** Name of a state column, counted from 0, for example "porosity". Owned by the model. NULL beyond the last column. */
-const char *msdd_surrogate_state_name(const msdd_surrogate *surrogate, size_t column);
-
-/** 1 when the model has a mechanical tangent, else 0. */
-int32_t msdd_surrogate_has_tangent(const msdd_surrogate *surrogate);
-
-/** Parameters of the friction coefficient that a wall mobilises after the slip s [m] of the grains along it,
- *  limit s/(s + slip): fitted to simulated boxes with slipping walls in the model's database. `limit` [-] and `slip` [m]
- *  may be NULL. Fails with MSDD_INVALID_ARGUMENT when the model has no such fit. */
-int32_t msdd_surrogate_wall_friction(const msdd_surrogate *surrogate, const msdd_material *material, double *limit,
-                                     double *slip);
-
-/** Computes the initial state of cells. `state` points to state_size writable columns. */
-int32_t msdd_surrogate_initial_state(const msdd_surrogate *surrogate, const msdd_material *material,
-                                     const msdd_initial *initial, double *const *state);
-
-/** Takes every cell of the batch through one step. Cells are independent: the result of a cell does not depend on the
- *  other cells of the batch. Zero strain leaves the state as it is, bit for bit. */
-int32_t msdd_surrogate_advance(const msdd_surrogate *surrogate, const msdd_material *material, msdd_batch *batch);
-
-/** Solid fraction with overlaps counted twice (sum of the grains' areas over the area of the region [-]) of an initial
- *  state with the given porosity (overlaps counted once; 0 to 1, else refused), by a fit to the database. The bulk density
- *  that conserves mass is rho * solid_fraction, with rho the density of the grains. */
-int32_t msdd_surrogate_solid_fraction(const msdd_surrogate *surrogate, size_t cells, const double *porosity,
-                                      double *solid_fraction);
-
-/** Frees a model; NULL is allowed. */
-void msdd_surrogate_free(msdd_surrogate *surrogate);
-
-/* ------------------------------------------------------------------------------------------------- law of spheres */
-
-/** The law of packings of spheres, in three dimensions: opaque, immutable. It holds for spheres of any size and material with a
- *  friction of about 0.3, whose diameters are equal or differ a little (size_spread of msdd_sphere_material). */
-typedef struct msdd_spheres msdd_spheres;
-
-/** Spheres and the gas between them. */
-typedef struct msdd_sphere_material {
-    size_t struct_size;   /**< sizeof(msdd_sphere_material) */
-    double diameter;      /**< of unequal spheres the Sauter mean, sum d^3/sum d^2 [m], 1e-9 to 1e3 */
-    double young_modulus; /**< [Pa], 1e-9 to 1e15 */
+/** Grains, and the gas between them. Models of discs use the first three numbers alone: then the others, and the gas, may be 0. */
+typedef struct msdd_grains {
+    size_t struct_size;   /**< sizeof(msdd_grains) */
+    double conductivity;  /**< thermal, of the grains, k [W/(m K)], 1e-12 to 1e12 */
+    double young_modulus; /**< E of the grains [Pa], 1e-9 to 1e15 */
+    double radius;        /**< mean radius in the initial state [m], 1e-12 to 1e6; of unequal spheres half of the Sauter mean
+                               diameter, sum d^3/sum d^2; of spheres 5e-10 to 500 */
     double poisson_ratio; /**< -0.99 to 0.5 */
-    double conductivity;  /**< of the spheres, k_s [W/(m K)], 1e-12 to 1e12 */
     double roughness;     /**< height of the asperities (root mean square) over their slope [m], 0 to 1; 0: smooth */
     double hardness;      /**< of the rough surface [Pa], 1 to 1e15; not used when smooth */
     const char *gas;      /**< "air", "nitrogen", "helium", "argon" or "vacuum"; NULL = "vacuum" */
     double gas_pressure;  /**< [Pa], 1e-3 to 1e9; not used in a vacuum */
     double accommodation; /**< of the gas at the spheres, 0.01 to 1; not used in a vacuum */
     double emissivity;    /**< of the spheres, opaque, grey and diffuse, 0 to 1; 0: without radiation */
-    double size_spread;   /**< standard deviation of the diameters over their mean, both weighted by surface, 0 to 0.25; 0: equal spheres */
-} msdd_sphere_material;
+    double size_spread;   /**< standard deviation of the diameters over their mean, both weighted by surface, 0 to 0.25; 0: equal
+                               spheres */
+} msdd_grains;
 
-/** Inputs and outputs of one step of a batch of cells. Six columns of a tensor are xx, yy, zz, xy, xz, yz; of a strain the last
- *  three are twice the shears, du_x/dy + du_y/dx and so on. The same column may be given as input and as output. */
-typedef struct msdd_sphere_batch {
-    size_t struct_size;            /**< sizeof(msdd_sphere_batch) */
-    size_t cells;                  /**< length of every column */
-    /* in */
-    const double *const *state;    /**< msdd_spheres_state_size columns before the step. Refused outside of: jamming_fraction 0.3 to
-                                        0.8, elastic_compression -0.9 to 0.5, strength 0.01 to 8, mobilised 0 to 1, coordination
-                                        0 to 12, stress ratios -2 to 2. Each state that is answered lies inside */
-    const double *thermal_strain;  /**< relative growth of the radii in this step; above -0.2, to 0.2; NULL = 0 */
-    const double *const *strain;   /**< six columns: strain of the cell in this step, above -0.2, to 0.2; NULL = 0 */
-    const double *const *rotation; /**< three columns: vector of the angle by which the cell turns, half of the curl of the
-                                        displacement [rad], above -0.2, to 0.2; NULL = 0 */
-    const double *temperature;     /**< [K], 0 to 1e5, of the gas; NULL = 293.15. Beyond the temperatures at which the gas is known
-                                        the nearest of them is taken */
-    const double *solid_conductivity; /**< k_s of the spheres in this cell [W/(m K)], 1e-12 to 1e12; NULL = that of the material */
-    const double *emissivity;      /**< of the spheres in this cell, 0 to 1; NULL = that of the material */
-    /* out; any of them may be NULL when not wanted, and so may single columns of next_state, stress, tangent and
-     * conductivity */
-    double *const *next_state;     /**< state columns after the step */
-    double *const *stress;         /**< six columns after the step [Pa] */
-    double *const *tangent;        /**< 36 columns [Pa], row by row: -d sigma_i/d strain_j at the end of the step. It is the
-                                        derivative of exactly the stress that is answered, and not symmetric */
-    double *const *conductivity;   /**< six columns after the step [W/(m K)], contacts, gas and radiation together */
-    double *gas_conductivity;      /**< the part of it by the gas [W/(m K)], its mean over directions: there is more of it
-                                        where contacts point */
-    double *radiation_conductivity; /**< what radiation between the spheres adds, alike in all directions [W/(m K)] */
-    double *solid_fraction;        /**< volume of the spheres over the volume [-] */
-    uint8_t *outside;              /**< what is outside of the training, as a sum: 1 the jamming fraction, 2 the pressure, 4 the
-                                        stress ratio after the step; 8 the gas: its number, or where it is so thin that its
-                                        molecules fly from grain to grain, or colder or hotter than its properties are known */
-    size_t outside_cells;          /**< number of these cells. Where stress or tangent are wanted, but neither conductivities nor
-                                        `outside`, the gas is not looked at */
-} msdd_sphere_batch;
+/** Inputs and outputs of one step of a batch of cells: steps 1 and 2 of Algorithm 1 of the paper.
+ *
+ *  `components`, 3 or 6, is the number of components of stress and strain (msdd_model_components): in the plane xx, yy, xy; in space
+ *  xx, yy, zz, xy, xz, yz. Tables of tensors have as many columns. Shears of strains are twice those of the tensor,
+ *  du_x/dy + du_y/dx and so on.
+ *
+ *  The state of a cell is what the model carries from step to step: msdd_model_state_size columns without unit, named by
+ *  msdd_model_state_name. Outputs do not overlap each other. An output may be exactly the column of an input, as in a step in
+ *  place, and otherwise does not overlap inputs; columns may interleave. An input that a model does not use is ignored, an output
+ *  that it does not compute is refused.
+ *
+ *  Discs accept any finite state. Its first two columns are porosity (the overlap of two grains counted once) and fabric_index
+ *  (F_xx - F_yy, the difference of the diagonal components of the fabric tensor). An input outside of the trained range, also one
+ *  that no packing has, such as a porosity of 2, is reported in `outside` and `distance`. Networks are evaluated at the nearest end
+ *  of that range, the incremental model as far as its parameters make sense.
+ *  Spheres refuse states outside of: jamming_fraction 0.3 to 0.8, elastic_compression -0.9 to 0.5, strength 0.01 to 8, mobilised 0
+ *  to 1, coordination 0 to 12, stress ratios -2 to 2. Each state that is answered lies inside. */
+typedef struct msdd_step {
+    size_t struct_size;              /**< sizeof(msdd_step) */
+    size_t cells;                    /**< length of every column */
+    size_t components;               /**< that of the model */
+    /* in; a column or table that is not given is 0 unless said otherwise */
+    const msdd_input *state;         /**< state columns before the step; needed */
+    msdd_input thermal_strain;       /**< radial strain of the grains in this step, relative to the current radius; of spheres
+                                          above -0.2, to 0.2 */
+    msdd_input total_thermal_strain; /**< of discs: alpha (T - T0), this step included; above -1, to 10 */
+    const msdd_input *strain;        /**< strain of the cell in this step, above -0.2, to 0.2; only for a model with a tangent */
+    const msdd_input *rotation;      /**< angle by which the cell turns, half of the curl of the displacement [rad], above -0.2, to
+                                          0.2: in the plane one column, counter-clockwise positive, in space three columns */
+    msdd_input temperature;          /**< of spheres, of the gas [K], 0 to 1e5; NULL = 293.15. Beyond the temperatures at which the
+                                          gas is known the nearest of them is taken */
+    msdd_input solid_conductivity;   /**< of the spheres in this cell [W/(m K)], 1e-12 to 1e12; NULL = that of the material */
+    msdd_input emissivity;           /**< of the spheres in this cell, 0 to 1; NULL = that of the material */
+    /* out; any table and any column in it may be NULL when not wanted */
+    const msdd_output *next_state;   /**< state columns after the step */
+    const msdd_output *stress;       /**< after the step [Pa] */
+    const msdd_output *tangent;      /**< components^2 columns [Pa], row by row: -d sigma_i/d strain_j at the end of the step. Only
+                                          for a model that has a tangent. It is the derivative of exactly the stress that is
+                                          answered, and where grains slide it is not symmetric */
+    const msdd_output *conductivity; /**< after the step [W/(m K)]; of spheres by contacts, gas and radiation together */
+    msdd_output gas_conductivity;    /**< of spheres: the part by the gas [W/(m K)], its mean over directions: there is more of it
+                                          where contacts point */
+    msdd_output radiation_conductivity; /**< of spheres: the part by radiation, equal in all directions [W/(m K)] */
+    msdd_output solid_fraction;      /**< of spheres: their volume over the volume [-] */
+    msdd_output spread;              /**< relative standard deviation of K between RVEs of equal state; NaN if the model does not
+                                          give it. Takes longer than all other outputs together */
+    const msdd_output *distance;     /**< of discs: state_size + 1 columns, the last for thermal_strain: distance of the input from
+                                          the trained range, in the input's own unit, negative below and positive above; 0 inside */
+    uint8_t *outside;                /**< contiguous. Of discs 1 where an input lies outside the trained range, else 0. Of spheres
+                                          what is outside, as a sum: 1 the jamming fraction, 2 the pressure, 4 the stress ratio
+                                          after the step; 8 the gas: its number, or where it is so thin that its molecules fly from
+                                          grain to grain, or colder or hotter than its properties are known */
+    size_t outside_cells;            /**< number of these cells. Of spheres, where stress or tangent are wanted, but neither
+                                          conductivities nor `outside`, the gas is not looked at */
+} msdd_step;
 
-/** Loads a law. `source`: NULL or "builtin" for the one compiled into the library, else the path of a model file. On success
- *  *out owns it; free it with msdd_spheres_free. */
-int32_t msdd_spheres_load(const char *source, msdd_spheres **out);
+/** What is known of the cells at the start. A value outside its range is refused, with column and index in the message: an initial
+ *  state that no packing has is a mistake, whereas a state may leave the trained range in the course of a calculation. For a
+ *  quantity that is not given, that of usual packings is used. */
+typedef struct msdd_start {
+    size_t struct_size;             /**< sizeof(msdd_start) */
+    size_t cells;                   /**< length of every column */
+    size_t components;              /**< as in msdd_step */
+    msdd_input porosity;            /**< of discs, needed: overlaps counted once, 0 to 1 */
+    msdd_input fabric_index;        /**< of discs, needed: F_xx - F_yy, -1 to 1 */
+    msdd_input fabric_xy;           /**< of discs: F_xy, -1 to 1; NULL = 0 */
+    msdd_input solid_fraction;      /**< of spheres, needed: volume of the spheres over the volume, 0.3 to 0.8 */
+    const msdd_input *stress;       /**< [Pa], -1e30 to 1e30. Of spheres needed; a pressure of 0 or less is that of spheres that
+                                         just do not touch. Of discs xx and yy both or none; a shear that is not given is 0 */
+    const msdd_input *conductivity; /**< of discs [W/(m K)], xx and yy above 0, to 1e30, both or none. A packing that conducts better
+                                         than others of its state keeps doing so */
+    const msdd_input *fabric;       /**< of spheres: mean of n n over the contacts, with the normals n, -1 to 1 */
+    msdd_input coordination;        /**< of spheres: contacts per sphere, all spheres counted, 0 to 12; NULL: as in periodic boxes
+                                         (beds that were poured under gravity have 0.4 contacts a sphere more) */
+    msdd_input mobilised;           /**< of spheres: the mobilised part of the friction, 0 to 1; NULL: 0.85, as in beds that were
+                                         poured */
+} msdd_start;
 
-/** SHA-256 of the bytes of the model file, 64 hexadecimal digits. Owned by the law. NULL for a null handle. */
-const char *msdd_spheres_hash(const msdd_spheres *spheres);
+/** Loads a model. `source`: NULL or "builtin" for the default model of discs compiled into the library ("builtin:increment";
+ *  "builtin:paper" is the network of the paper), "builtin:spheres" for the model of spheres; "plugin:" and the path of a shared
+ *  library that defines msdd_plugin_v2_table, see the end of this header; else the path of a model file, which contains data and
+ *  no code. The model of spheres holds for spheres of any size and material with a friction of about 0.3, whose diameters are equal
+ *  or differ a little (size_spread of msdd_grains). On success *out owns the model; free it with msdd_model_free.
+ *  Loading a plug-in runs its code, with all rights of this process: pass no `source` that a stranger chose. */
+int32_t msdd_model_load(const char *source, msdd_model **out);
 
-/** The model file as one JSON object: numbers of the law, ranges and provenance. Owned by the law. NULL for a null handle. */
-const char *msdd_spheres_describe(const msdd_spheres *spheres);
+/** Makes a copy of a model that computes another kind of conductivity: "affine" (Eq. 9 of the paper, an upper bound) or
+ *  "network" (the resistor network of the contacts solved). msdd_model_describe lists the kinds that the model was
+ *  trained for as "conductivities"; any other fails with MSDD_INVALID_ARGUMENT. The state columns are
+ *  those of the original. On success *out owns the new handle; either handle may be freed first. */
+int32_t msdd_model_with_conductivity(const msdd_model *model, const char *kind, msdd_model **out);
 
-/** Number of state columns; 0 for a null handle. */
-size_t msdd_spheres_state_size(const msdd_spheres *spheres);
+/** SHA-256 of the bytes of the model file or plug-in, 64 hexadecimal digits. Owned by the model. NULL for a null handle. */
+const char *msdd_model_hash(const msdd_model *model);
 
-/** Name of a state column, counted from 0. Owned by the law. NULL beyond the last column. */
-const char *msdd_spheres_state_name(const msdd_spheres *spheres, size_t column);
+/** Description of the model as one JSON object: of discs and plug-ins kind, name, state columns, conductivities, trained_range,
+ *  provenance; of spheres the model file. Owned by the model. NULL for a null handle. */
+const char *msdd_model_describe(const msdd_model *model);
 
-/** Computes the state of packings with a solid fraction (0.3 to 0.8) and a stress [Pa, compression positive; six columns]. A
- *  pressure of 0 or less is that of spheres that just do not touch. `coordination`: contacts per sphere, all spheres counted
- *  (0 to 12); `mobilised`: the mobilised part of the friction (0 to 1); `fabric`: mean of n n over the contacts, with the normals n
- *  (six columns, -1 to 1). Each may be NULL, and then is that of periodic boxes (beds that were poured under gravity have 0.4
- *  contacts a sphere more); of the friction, that of beds that were poured, 0.85. `state`: state_size writable columns. */
-int32_t msdd_spheres_initial_state(const msdd_spheres *spheres, const msdd_sphere_material *material, size_t cells,
-                                   const double *solid_fraction, const double *const *stress, const double *coordination,
-                                   const double *mobilised, const double *const *fabric, double *const *state);
+/** Number of state columns, at least 2; 0 for a null handle. */
+size_t msdd_model_state_size(const msdd_model *model);
 
-/** Takes every cell of the batch through one step. Cells are independent. Zero strain leaves the state as it is, bit for bit.
+/** Name of a state column, counted from 0, for example "porosity". Owned by the model. NULL beyond the last column. */
+const char *msdd_model_state_name(const msdd_model *model, size_t column);
+
+/** Number of components of stress and strain: 3 for a model of the plane (discs, plug-ins), 6 in space; 0 for a null handle. */
+size_t msdd_model_components(const msdd_model *model);
+
+/** 1 when the model has a mechanical tangent, else 0. */
+int32_t msdd_model_has_tangent(const msdd_model *model);
+
+/** Parameters of the friction coefficient that a wall mobilises after the slip s [m] of the grains along it,
+ *  limit s/(s + slip): fitted to simulated boxes with slipping walls in the model's database. `limit` [-] and `slip` [m]
+ *  may be NULL. Fails with MSDD_INVALID_ARGUMENT when the model has no such fit. */
+int32_t msdd_model_wall_friction(const msdd_model *model, const msdd_grains *material, double *limit, double *slip);
+
+/** Computes the initial state of cells. `state`: state_size columns. */
+int32_t msdd_model_initial_state(const msdd_model *model, const msdd_grains *material, const msdd_start *start,
+                                 const msdd_output *state);
+
+/** Takes every cell of the batch through one step. Cells are independent: the result of a cell does not depend on the
+ *  other cells of the batch. Zero strain leaves the state as it is, bit for bit.
  *  Spheres that conduct less than 20 times as well as the gas conduct by another law than better ones, those up to 60 times by a
  *  mixture of both; spheres that conduct less than the gas are refused. */
-int32_t msdd_spheres_advance(const msdd_spheres *spheres, const msdd_sphere_material *material, msdd_sphere_batch *batch);
+int32_t msdd_model_advance(const msdd_model *model, const msdd_grains *material, msdd_step *step);
 
-/** Frees a law; NULL is allowed. */
-void msdd_spheres_free(msdd_spheres *spheres);
+/** Solid fraction (sum of the grains' areas or volumes over that of the region [-], overlaps counted twice) of an initial state with
+ *  the given porosity (overlaps counted once; 0 to 1, else refused): of discs by a fit to the database, of spheres 1 - porosity.
+ *  The bulk density that conserves mass is rho * solid_fraction, with rho the density of the grains. */
+int32_t msdd_model_solid_fraction(const msdd_model *model, size_t cells, const double *porosity, double *solid_fraction);
 
-/** The surface of a wall beside a bed of spheres. */
+/** Frees a model; NULL is allowed. */
+void msdd_model_free(msdd_model *model);
+
+/** The surface of a wall next to a bed of spheres. */
 typedef struct msdd_sphere_wall {
     size_t struct_size;   /**< sizeof(msdd_sphere_wall) */
     double conductivity;  /**< of the wall [W/(m K)], 1e-12 to 1e12 */
@@ -292,13 +250,12 @@ typedef struct msdd_sphere_wall {
     double emissivity;    /**< of the wall, 0 to 1; it exchanges radiation with spheres whose emissivity is above 0 */
 } msdd_sphere_wall;
 
-/** What a wall adds to the resistance of a bed that is taken to conduct alike up to its surface [m2 K/W], for each of `faces` faces:
- *  0 at least and 1e9 at most. `stress`: normal to the wall [Pa], compression positive; of 0 or less: gas alone conducts.
+/** What a wall adds to the resistance of a bed of spheres that has one conductivity up to its surface [m2 K/W], for each of `faces`
+ *  faces: 0 at least and 1e9 at most. `stress`: normal to the wall [Pa], compression positive; of 0 or less: gas alone conducts.
  *  `temperature`: of the gas [K], 0 to 1e5. `conductivity`: of the bed across the wall [W/(m K)], 0 and above: where
  *  nothing conducts the resistance is 1e9. */
-int32_t msdd_spheres_wall_resistance(const msdd_sphere_material *material, const msdd_sphere_wall *wall, size_t faces,
-                                    const double *stress, const double *temperature, const double *conductivity,
-                                    double *resistance);
+int32_t msdd_wall_resistance(const msdd_grains *material, const msdd_sphere_wall *wall, size_t faces, const double *stress,
+                             const double *temperature, const double *conductivity, double *resistance);
 
 /* ---------------------------------------------------------------------------------------------------------- RVEs */
 
@@ -438,7 +395,7 @@ typedef struct msdd_plugin_step {
     size_t cells;                 /**< length of every column */
     const double *const *state;   /**< state_size columns before the step */
     const double *thermal_strain; /**< radial strain of the grains, relative to the current radius; above -1 */
-    const double *strain_xx;      /**< strain of the cell, as in msdd_batch; NULL = none of the four, always so for a plug-in
+    const double *strain_xx;      /**< strain of the cell, as in msdd_step; NULL = none of the four, always so for a plug-in
                                        without tangent */
     const double *strain_yy;
     const double *strain_xy;
@@ -450,8 +407,8 @@ typedef struct msdd_plugin_step {
     double *stress_xx;            /**< out: reduced, after the step */
     double *stress_yy;
     double *stress_xy;            /**< out: 0 before the call */
-    double *const *tangent;       /**< out: nine columns as in msdd_batch, reduced; NULL = not wanted */
-    double *const *outside;       /**< out: state_size + 1 columns, as in msdd_batch; all 0 before the call, so a plug-in
+    double *const *tangent;       /**< out: nine columns as in msdd_step, reduced; NULL = not wanted */
+    double *const *outside;       /**< out: state_size + 1 columns, as `distance` in msdd_step; all 0 before the call, so a plug-in
                                        without limits need not write them */
 } msdd_plugin_step;
 
@@ -481,7 +438,7 @@ typedef struct msdd_plugin_v2 {
     int32_t (*spread)(size_t cells, const double *const *state, double *spread);
     /** Text of the last failure on the calling thread, UTF-8; the library copies it at once. NULL = no such function. */
     const char *(*last_error)(void);
-    double wall_friction_limit;     /**< as in msdd_surrogate_wall_friction; 0 = not known */
+    double wall_friction_limit;     /**< as in msdd_model_wall_friction; 0 = not known */
     double wall_friction_slip;      /**< [mean radii], > 0 */
 } msdd_plugin_v2;
 
@@ -497,7 +454,7 @@ MSDD_PLUGIN_EXPORT const msdd_plugin_v2 *msdd_plugin_v2_table(void);
 /* --------------------------------------------------------------------------------------------- what was compared */
 
 /** Least and largest value of a quantity in the scenes and beds by which a default model was compared with DEM.
- *  Beyond them nothing is known of its error. `hash`: SHA-256 of the model (msdd_surrogate_hash, msdd_spheres_hash). `quantity`:
+ *  Beyond them nothing is known of its error. `hash`: SHA-256 of the model (msdd_model_hash). `quantity`:
  *  - "reduced_pressure": p over young_modulus x mean_radius / (1 m) of discs, over E/(2 - 2 nu^2) of spheres; the least is of means
  *    over a bed;
  *  - "thermal_strain": growth of the radii since the start;
@@ -516,6 +473,353 @@ int32_t msdd_gas_conductivity(const char *gas, double temperature, double *condu
  *  [W/(m K)], heat capacity at constant pressure [J/(kg K)], molar mass [kg/mol], and the least and largest temperature [K] at which
  *  the gas is known. */
 int32_t msdd_gas_properties(const char *gas, double temperature, double *properties);
+
+/* ------------------------------------------------------------------------------------------ names of version 4 */
+
+/* What programs that were written for version 4 of this interface call: for one release. Compile with -DMSDD_WITHOUT_V4 to be
+ * told where you still use them. */
+#ifndef MSDD_WITHOUT_V4
+
+typedef struct msdd_model msdd_surrogate;
+typedef struct msdd_model msdd_spheres;
+
+typedef struct msdd_material {
+    size_t struct_size;
+    double thermal_conductivity, young_modulus, mean_radius;
+} msdd_material;
+
+typedef struct msdd_batch {
+    size_t struct_size, cells;
+    const double *const *state;
+    const double *thermal_strain, *total_thermal_strain, *strain_xx, *strain_yy, *strain_xy, *rotation;
+    double *const *next_state;
+    double *conductivity_xx, *conductivity_yy, *conductivity_xy, *stress_xx, *stress_yy, *stress_xy;
+    double *const *tangent;
+    uint8_t *clamped;
+    double *const *outside;
+    double *spread;
+    size_t clamped_cells;
+} msdd_batch;
+
+typedef struct msdd_initial {
+    size_t struct_size, cells;
+    const double *porosity, *fabric_index, *fabric_xy, *stress_xx, *stress_yy, *stress_xy;
+    const double *conductivity_xx, *conductivity_yy, *conductivity_xy;
+} msdd_initial;
+
+typedef struct msdd_sphere_material {
+    size_t struct_size;
+    double diameter, young_modulus, poisson_ratio, conductivity, roughness, hardness;
+    const char *gas;
+    double gas_pressure, accommodation, emissivity, size_spread;
+} msdd_sphere_material;
+
+typedef struct msdd_sphere_batch {
+    size_t struct_size, cells;
+    const double *const *state;
+    const double *thermal_strain;
+    const double *const *strain;
+    const double *const *rotation;
+    const double *temperature, *solid_conductivity, *emissivity;
+    double *const *next_state;
+    double *const *stress;
+    double *const *tangent;
+    double *const *conductivity;
+    double *gas_conductivity, *radiation_conductivity, *solid_fraction;
+    uint8_t *outside;
+    size_t outside_cells;
+} msdd_sphere_batch;
+
+/* Contiguous columns as those of version 5; NULL for a table that is not given. No model has more than 64 state columns. */
+#define MSDD_V4_COLUMNS 65
+
+static inline msdd_input msdd_v4_input(const double *values)
+{
+    msdd_input column;
+    column.values = values;
+    column.stride = 1;
+    return column;
+}
+
+static inline msdd_output msdd_v4_output(double *values)
+{
+    msdd_output column;
+    column.values = values;
+    column.stride = 1;
+    return column;
+}
+
+static inline const msdd_input *msdd_v4_inputs(msdd_input *table, const double *const *columns, size_t count)
+{
+    size_t k;
+    for (k = 0; columns != NULL && k < count; ++k)
+    {
+        table[k] = msdd_v4_input(columns[k]);
+    }
+    return columns != NULL ? table : NULL;
+}
+
+static inline const msdd_output *msdd_v4_outputs(msdd_output *table, double *const *columns, size_t count)
+{
+    size_t k;
+    for (k = 0; columns != NULL && k < count; ++k)
+    {
+        table[k] = msdd_v4_output(columns[k]);
+    }
+    return columns != NULL ? table : NULL;
+}
+
+/* A struct_size that the function of version 5 accepts if that of version 4 is right, and refuses else. */
+#define MSDD_V4_SIZE(given, old, now) ((given)->struct_size == sizeof(old) ? sizeof(now) : (given)->struct_size)
+
+static inline msdd_grains msdd_v4_discs(const msdd_material *material)
+{
+    msdd_grains grains;
+    memset(&grains, 0, sizeof grains);
+    grains.struct_size = MSDD_V4_SIZE(material, msdd_material, msdd_grains);
+    grains.conductivity = material->thermal_conductivity;
+    grains.young_modulus = material->young_modulus;
+    grains.radius = material->mean_radius;
+    return grains;
+}
+
+static inline msdd_grains msdd_v4_grains(const msdd_sphere_material *material)
+{
+    msdd_grains grains;
+    memset(&grains, 0, sizeof grains);
+    grains.struct_size = MSDD_V4_SIZE(material, msdd_sphere_material, msdd_grains);
+    grains.conductivity = material->conductivity;
+    grains.young_modulus = material->young_modulus;
+    grains.radius = 0.5 * material->diameter;
+    grains.poisson_ratio = material->poisson_ratio;
+    grains.roughness = material->roughness;
+    grains.hardness = material->hardness;
+    grains.gas = material->gas;
+    grains.gas_pressure = material->gas_pressure;
+    grains.accommodation = material->accommodation;
+    grains.emissivity = material->emissivity;
+    grains.size_spread = material->size_spread;
+    return grains;
+}
+
+static inline int32_t msdd_surrogate_load(const char *source, msdd_surrogate **out) { return msdd_model_load(source, out); }
+
+static inline int32_t msdd_surrogate_with_conductivity(const msdd_surrogate *surrogate, const char *kind, msdd_surrogate **out)
+{
+    return msdd_model_with_conductivity(surrogate, kind, out);
+}
+
+static inline const char *msdd_surrogate_hash(const msdd_surrogate *surrogate) { return msdd_model_hash(surrogate); }
+static inline const char *msdd_surrogate_describe(const msdd_surrogate *surrogate) { return msdd_model_describe(surrogate); }
+static inline size_t msdd_surrogate_state_size(const msdd_surrogate *surrogate) { return msdd_model_state_size(surrogate); }
+static inline const char *msdd_surrogate_state_name(const msdd_surrogate *surrogate, size_t column)
+{
+    return msdd_model_state_name(surrogate, column);
+}
+static inline int32_t msdd_surrogate_has_tangent(const msdd_surrogate *surrogate) { return msdd_model_has_tangent(surrogate); }
+
+static inline int32_t msdd_surrogate_wall_friction(const msdd_surrogate *surrogate, const msdd_material *material, double *limit,
+                                                   double *slip)
+{
+    msdd_grains grains;
+    if (material == NULL)
+    {
+        return msdd_model_wall_friction(surrogate, NULL, limit, slip);
+    }
+    grains = msdd_v4_discs(material);
+    return msdd_model_wall_friction(surrogate, &grains, limit, slip);
+}
+
+static inline int32_t msdd_surrogate_initial_state(const msdd_surrogate *surrogate, const msdd_material *material,
+                                                   const msdd_initial *initial, double *const *state)
+{
+    msdd_output columns[MSDD_V4_COLUMNS];
+    msdd_input stress[3], conductivity[3];
+    msdd_start start;
+    msdd_grains grains;
+    if (material == NULL || initial == NULL)
+    {
+        return msdd_model_initial_state(surrogate, NULL, NULL, NULL);
+    }
+    grains = msdd_v4_discs(material);
+    memset(&start, 0, sizeof start);
+    start.struct_size = MSDD_V4_SIZE(initial, msdd_initial, msdd_start);
+    start.cells = initial->cells;
+    start.components = 3;
+    start.porosity = msdd_v4_input(initial->porosity);
+    start.fabric_index = msdd_v4_input(initial->fabric_index);
+    start.fabric_xy = msdd_v4_input(initial->fabric_xy);
+    stress[0] = msdd_v4_input(initial->stress_xx);
+    stress[1] = msdd_v4_input(initial->stress_yy);
+    stress[2] = msdd_v4_input(initial->stress_xy);
+    start.stress = stress;
+    conductivity[0] = msdd_v4_input(initial->conductivity_xx);
+    conductivity[1] = msdd_v4_input(initial->conductivity_yy);
+    conductivity[2] = msdd_v4_input(initial->conductivity_xy);
+    start.conductivity = conductivity;
+    return msdd_model_initial_state(surrogate, &grains, &start,
+                                    msdd_v4_outputs(columns, state, msdd_model_state_size(surrogate)));
+}
+
+static inline int32_t msdd_surrogate_advance(const msdd_surrogate *surrogate, const msdd_material *material, msdd_batch *batch)
+{
+    msdd_input state[MSDD_V4_COLUMNS], strain[3], rotation;
+    msdd_output next_state[MSDD_V4_COLUMNS], distance[MSDD_V4_COLUMNS], tangent[9], stress[3], conductivity[3];
+    const size_t size = msdd_model_state_size(surrogate);
+    msdd_step step;
+    msdd_grains grains;
+    int32_t status;
+    if (material == NULL || batch == NULL)
+    {
+        return msdd_model_advance(surrogate, NULL, NULL);
+    }
+    grains = msdd_v4_discs(material);
+    memset(&step, 0, sizeof step);
+    step.struct_size = MSDD_V4_SIZE(batch, msdd_batch, msdd_step);
+    step.cells = batch->cells;
+    step.components = 3;
+    step.state = msdd_v4_inputs(state, batch->state, size);
+    step.thermal_strain = msdd_v4_input(batch->thermal_strain);
+    step.total_thermal_strain = msdd_v4_input(batch->total_thermal_strain);
+    strain[0] = msdd_v4_input(batch->strain_xx);
+    strain[1] = msdd_v4_input(batch->strain_yy);
+    strain[2] = msdd_v4_input(batch->strain_xy);
+    step.strain = strain;
+    rotation = msdd_v4_input(batch->rotation);
+    step.rotation = &rotation;
+    step.next_state = msdd_v4_outputs(next_state, batch->next_state, size);
+    conductivity[0] = msdd_v4_output(batch->conductivity_xx);
+    conductivity[1] = msdd_v4_output(batch->conductivity_yy);
+    conductivity[2] = msdd_v4_output(batch->conductivity_xy);
+    step.conductivity = conductivity;
+    stress[0] = msdd_v4_output(batch->stress_xx);
+    stress[1] = msdd_v4_output(batch->stress_yy);
+    stress[2] = msdd_v4_output(batch->stress_xy);
+    step.stress = stress;
+    step.tangent = msdd_v4_outputs(tangent, batch->tangent, 9);
+    step.outside = batch->clamped;
+    step.distance = msdd_v4_outputs(distance, batch->outside, size + 1);
+    step.spread = msdd_v4_output(batch->spread);
+    status = msdd_model_advance(surrogate, &grains, &step);
+    if (status == MSDD_OK)
+    {
+        batch->clamped_cells = step.outside_cells;
+    }
+    return status;
+}
+
+static inline int32_t msdd_surrogate_solid_fraction(const msdd_surrogate *surrogate, size_t cells, const double *porosity,
+                                                    double *solid_fraction)
+{
+    return msdd_model_solid_fraction(surrogate, cells, porosity, solid_fraction);
+}
+
+static inline void msdd_surrogate_free(msdd_surrogate *surrogate) { msdd_model_free(surrogate); }
+
+/* A file of another kind of model is loaded, too; the functions below then refuse it by its components. */
+static inline int32_t msdd_spheres_load(const char *source, msdd_spheres **out)
+{
+    const char *const builtin = "builtin";
+    size_t k = 0;
+    while (source != NULL && builtin[k] != '\0' && source[k] == builtin[k])
+    {
+        ++k;
+    }
+    return msdd_model_load(source == NULL || (builtin[k] == '\0' && source[k] == '\0') ? "builtin:spheres" : source, out);
+}
+
+static inline const char *msdd_spheres_hash(const msdd_spheres *spheres) { return msdd_model_hash(spheres); }
+static inline const char *msdd_spheres_describe(const msdd_spheres *spheres) { return msdd_model_describe(spheres); }
+static inline size_t msdd_spheres_state_size(const msdd_spheres *spheres) { return msdd_model_state_size(spheres); }
+static inline const char *msdd_spheres_state_name(const msdd_spheres *spheres, size_t column)
+{
+    return msdd_model_state_name(spheres, column);
+}
+
+static inline int32_t msdd_spheres_initial_state(const msdd_spheres *spheres, const msdd_sphere_material *material, size_t cells,
+                                                 const double *solid_fraction, const double *const *stress,
+                                                 const double *coordination, const double *mobilised,
+                                                 const double *const *fabric, double *const *state)
+{
+    msdd_output columns[MSDD_V4_COLUMNS];
+    msdd_input stresses[6], normals[6];
+    msdd_start start;
+    msdd_grains grains;
+    if (material == NULL)
+    {
+        return msdd_model_initial_state(spheres, NULL, NULL, NULL);
+    }
+    grains = msdd_v4_grains(material);
+    memset(&start, 0, sizeof start);
+    start.struct_size = sizeof(msdd_start);
+    start.cells = cells;
+    start.components = 6;
+    start.solid_fraction = msdd_v4_input(solid_fraction);
+    start.stress = msdd_v4_inputs(stresses, stress, 6);
+    start.fabric = msdd_v4_inputs(normals, fabric, 6);
+    start.coordination = msdd_v4_input(coordination);
+    start.mobilised = msdd_v4_input(mobilised);
+    return msdd_model_initial_state(spheres, &grains, &start,
+                                    msdd_v4_outputs(columns, state, msdd_model_state_size(spheres)));
+}
+
+static inline int32_t msdd_spheres_advance(const msdd_spheres *spheres, const msdd_sphere_material *material,
+                                           msdd_sphere_batch *batch)
+{
+    msdd_input state[MSDD_V4_COLUMNS], strain[6], rotation[3];
+    msdd_output next_state[MSDD_V4_COLUMNS], tangent[36], stress[6], conductivity[6];
+    const size_t size = msdd_model_state_size(spheres);
+    msdd_step step;
+    msdd_grains grains;
+    int32_t status;
+    if (material == NULL || batch == NULL)
+    {
+        return msdd_model_advance(spheres, NULL, NULL);
+    }
+    grains = msdd_v4_grains(material);
+    memset(&step, 0, sizeof step);
+    step.struct_size = MSDD_V4_SIZE(batch, msdd_sphere_batch, msdd_step);
+    step.cells = batch->cells;
+    step.components = 6;
+    step.state = msdd_v4_inputs(state, batch->state, size);
+    step.thermal_strain = msdd_v4_input(batch->thermal_strain);
+    step.strain = msdd_v4_inputs(strain, batch->strain, 6);
+    step.rotation = msdd_v4_inputs(rotation, batch->rotation, 3);
+    step.temperature = msdd_v4_input(batch->temperature);
+    step.solid_conductivity = msdd_v4_input(batch->solid_conductivity);
+    step.emissivity = msdd_v4_input(batch->emissivity);
+    step.next_state = msdd_v4_outputs(next_state, batch->next_state, size);
+    step.stress = msdd_v4_outputs(stress, batch->stress, 6);
+    step.tangent = msdd_v4_outputs(tangent, batch->tangent, 36);
+    step.conductivity = msdd_v4_outputs(conductivity, batch->conductivity, 6);
+    step.gas_conductivity = msdd_v4_output(batch->gas_conductivity);
+    step.radiation_conductivity = msdd_v4_output(batch->radiation_conductivity);
+    step.solid_fraction = msdd_v4_output(batch->solid_fraction);
+    step.outside = batch->outside;
+    status = msdd_model_advance(spheres, &grains, &step);
+    if (status == MSDD_OK)
+    {
+        batch->outside_cells = step.outside_cells;
+    }
+    return status;
+}
+
+static inline void msdd_spheres_free(msdd_spheres *spheres) { msdd_model_free(spheres); }
+
+static inline int32_t msdd_spheres_wall_resistance(const msdd_sphere_material *material, const msdd_sphere_wall *wall,
+                                                   size_t faces, const double *stress, const double *temperature,
+                                                   const double *conductivity, double *resistance)
+{
+    msdd_grains grains;
+    if (material == NULL)
+    {
+        return msdd_wall_resistance(NULL, wall, faces, stress, temperature, conductivity, resistance);
+    }
+    grains = msdd_v4_grains(material);
+    return msdd_wall_resistance(&grains, wall, faces, stress, temperature, conductivity, resistance);
+}
+
+#endif /* MSDD_WITHOUT_V4 */
 
 #ifdef __cplusplus
 }

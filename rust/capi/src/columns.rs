@@ -1,6 +1,7 @@
-//! Columns of the caller: arrays with one value per cell. They are raw pointers and not slices, because a caller may pass
-//! the same column as input and output.
+//! Columns of the caller: one value per cell, at a stride. They are raw pointers and not slices, because a caller may pass the
+//! same column as input and output, and columns may interleave, like the components in an array of tensors.
 
+use crate::abi::{msdd_input, msdd_output};
 use crate::status::Failure;
 use msdd_surrogate::kernel::{LANES, Lanes};
 use msdd_surrogate::network::padded;
@@ -10,58 +11,106 @@ use msdd_surrogate::network::padded;
 pub(crate) struct Input<'a> {
     pub name: &'a str,
     start: *const f64,
+    stride: usize,
     length: usize,
 }
 
 /// A writable column of the caller, or NULL when the output is not wanted.
 #[derive(Clone, Copy)]
 pub(crate) struct Output<T> {
+    pub name: &'static str,
     start: *mut T,
+    stride: usize,
     length: usize,
+}
+
+/// Refuses numbers of cells whose columns cannot fit into memory: pointers to the end of a column would wrap around.
+pub(crate) fn check_length(cells: usize) -> Result<(), Failure> {
+    match cells > isize::MAX as usize / size_of::<f64>() {
+        true => Err(Failure::argument("cells", cells, "number of cells")),
+        false => Ok(()),
+    }
+}
+
+/// Refuses a stride of 0, and one with which the column would not fit into memory.
+fn check_stride(name: &str, stride: usize, length: usize) -> Result<(), Failure> {
+    let longest = isize::MAX as usize / size_of::<f64>();
+    match stride > 0 && (length <= 1 || stride <= longest / length) {
+        true => Ok(()),
+        false => Err(Failure::argument(
+            format!("{name}.stride"),
+            stride,
+            "1 or more, in doubles, so that the column fits into memory",
+        )),
+    }
 }
 
 impl<'a> Input<'a> {
     /// # Safety
-    /// `start`, unless null, points to `length` values that stay readable while the column is in use.
-    pub unsafe fn new(name: &'a str, start: *const f64, length: usize) -> Result<Self, Failure> {
+    /// The column, unless null, has `length` values at its stride that stay readable while it is in use.
+    pub unsafe fn new(name: &'a str, column: msdd_input, length: usize) -> Result<Self, Failure> {
         // A batch of no cells may come without columns.
-        if start.is_null() && length > 0 {
-            Err(Failure::Null(name.to_string()))
-        } else {
-            Ok(Self { name, start, length })
+        if length > 0 {
+            if column.values.is_null() {
+                return Err(Failure::null(name));
+            }
+            check_stride(name, column.stride, length)?;
         }
+        Ok(Self { name, start: column.values, stride: column.stride, length })
+    }
+
+    /// As [`Input::new`]; None for null.
+    ///
+    /// # Safety
+    /// As for [`Input::new`].
+    pub unsafe fn optional(
+        name: &'a str,
+        column: msdd_input,
+        length: usize,
+    ) -> Result<Option<Self>, Failure> {
+        match column.values.is_null() {
+            true => Ok(None),
+            // SAFETY: by this function's contract.
+            false => unsafe { Self::new(name, column, length) }.map(Some),
+        }
+    }
+
+    /// A column of stride 1.
+    ///
+    /// # Safety
+    /// As for [`Input::new`].
+    pub unsafe fn contiguous(name: &'a str, values: *const f64, length: usize) -> Result<Self, Failure> {
+        // SAFETY: by this function's contract.
+        unsafe { Self::new(name, msdd_input { values, stride: 1 }, length) }
     }
 
     pub fn length(&self) -> usize {
         self.length
     }
 
-    /// All of the column.
-    ///
-    /// # Safety
-    /// Nobody writes to the column while the slice is in use.
-    pub unsafe fn slice(&self) -> &[f64] {
-        match self.start.is_null() {
-            true => &[],
-            // SAFETY: readable by the contract of `new`, and not written to by this function's.
-            false => unsafe { std::slice::from_raw_parts(self.start, self.length) },
-        }
+    /// A copy of all of the column.
+    pub fn to_vec(self) -> Vec<f64> {
+        (0..self.length).map(|cell| self.at(cell)).collect()
     }
 
     /// Value of one cell. Out of bounds is a bug and panics.
     pub fn at(&self, cell: usize) -> f64 {
         assert!(cell < self.length);
         // SAFETY: in bounds, and readable by the contract of `new`. Any bits are an f64.
-        unsafe { self.start.add(cell).read() }
+        unsafe { self.start.add(cell * self.stride).read() }
     }
 
     /// The cells of a block from `first` on.
     pub fn lanes(&self, first: usize) -> Lanes {
-        if first + LANES <= self.length {
+        if first + LANES > self.length {
+            return padded(self.length - first, |lane| self.at(first + lane));
+        }
+        if self.stride == 1 {
             // SAFETY: in bounds, and readable by the contract of `new`; an array is aligned as its elements are.
             return unsafe { self.start.add(first).cast::<Lanes>().read() };
         }
-        padded(self.length - first, |lane| self.at(first + lane))
+        // SAFETY: in bounds, and readable by the contract of `new`.
+        std::array::from_fn(|lane| unsafe { self.start.add((first + lane) * self.stride).read() })
     }
 
     /// First cell whose value satisfies `is`. Tests whole blocks without branches, since there usually is no such value.
@@ -73,7 +122,16 @@ impl<'a> Input<'a> {
 
     /// Refuses values outside of a range, whose ends belong to it.
     pub fn check_range(&self, low: f64, high: f64, allowed: &str) -> Result<(), Failure> {
-        match self.position(|value| !(low <= value && value <= high)) {
+        self.refuse(|value| !(low <= value && value <= high), allowed)
+    }
+
+    /// As [`Input::check_range`]; the lower end does not belong to the range.
+    pub fn check_above(&self, low: f64, high: f64, allowed: &str) -> Result<(), Failure> {
+        self.refuse(|value| !(low < value && value <= high), allowed)
+    }
+
+    fn refuse(&self, is: impl Fn(f64) -> bool, allowed: &str) -> Result<(), Failure> {
+        match self.position(is) {
             None => Ok(()),
             Some(cell) => Err(Failure::number(format!("{}[{cell}]", self.name), self.at(cell), allowed)),
         }
@@ -88,14 +146,31 @@ impl<'a> Input<'a> {
             }
         }
     }
+
+    /// Where its values are.
+    pub fn place(&self) -> Place<'_> {
+        Place::new(self.name, self.start.addr(), self.stride, self.length, false)
+    }
+}
+
+impl Output<f64> {
+    /// # Safety
+    /// The column, unless null, has `length` values at its stride that stay writable while it is in use, and no other thread
+    /// touches them.
+    pub unsafe fn new(name: &'static str, column: msdd_output, length: usize) -> Result<Self, Failure> {
+        if !column.values.is_null() && length > 0 {
+            check_stride(name, column.stride, length)?;
+        }
+        Ok(Self { name, start: column.values, stride: column.stride, length })
+    }
 }
 
 impl<T: Copy> Output<T> {
     /// # Safety
     /// `start`, unless null, points to `length` values that stay writable while the column is in use, and no other
     /// thread touches them.
-    pub unsafe fn new(start: *mut T, length: usize) -> Self {
-        Self { start, length }
+    pub unsafe fn contiguous(name: &'static str, start: *mut T, length: usize) -> Self {
+        Self { name, start, stride: 1, length }
     }
 
     /// Whether the caller gave the column.
@@ -108,7 +183,7 @@ impl<T: Copy> Output<T> {
         assert!(cell < self.length);
         if !self.start.is_null() {
             // SAFETY: in bounds, and writable by the contract of `new`.
-            unsafe { self.start.add(cell).write(value) };
+            unsafe { self.start.add(cell * self.stride).write(value) };
         }
     }
 
@@ -117,25 +192,97 @@ impl<T: Copy> Output<T> {
         if self.start.is_null() {
             return;
         }
-        if first + LANES <= self.length {
+        if self.stride == 1 && first + LANES <= self.length {
             // SAFETY: in bounds, and writable by the contract of `new`; an array is aligned as its elements are.
             return unsafe { self.start.add(first).cast::<[T; LANES]>().write(*values) };
         }
         let count = self.length.saturating_sub(first).min(LANES);
-        // SAFETY: `count` values from `first` on lie inside the column, writable by the contract of `new`; `values` is
-        // ours, so the two do not overlap.
-        unsafe { self.start.add(first).copy_from_nonoverlapping(values.as_ptr(), count) };
+        for (lane, value) in values[..count].iter().enumerate() {
+            // SAFETY: in bounds, and writable by the contract of `new`.
+            unsafe { self.start.add((first + lane) * self.stride).write(*value) };
+        }
     }
 
     /// Writes the whole column.
     pub fn write_all(&self, values: &[T]) {
         assert_eq!(values.len(), self.length);
-        if !self.start.is_null() {
-            // SAFETY: as many values as the column has, writable by the contract of `new`; `values` is ours, so the two do
-            // not overlap.
-            unsafe { self.start.copy_from_nonoverlapping(values.as_ptr(), self.length) };
+        values.iter().enumerate().for_each(|(cell, value)| self.write_one(cell, *value));
+    }
+
+    /// Where its values are.
+    pub fn place(&self) -> Place<'_> {
+        Place {
+            size: size_of::<T>(),
+            ..Place::new(self.name, self.start.addr(), self.stride, self.length, true)
         }
     }
+}
+
+/// Where the values of a column are.
+#[derive(Clone, Copy)]
+pub(crate) struct Place<'a> {
+    name: &'a str,
+    start: usize,
+    stride: usize,
+    length: usize,
+    size: usize,
+    is_output: bool,
+}
+
+impl<'a> Place<'a> {
+    fn new(name: &'a str, start: usize, stride: usize, length: usize, is_output: bool) -> Self {
+        Self {
+            name,
+            start,
+            stride,
+            length: if start == 0 { 0 } else { length },
+            size: size_of::<f64>(),
+            is_output,
+        }
+    }
+
+    fn step(&self) -> usize {
+        self.stride * self.size
+    }
+
+    /// The first byte behind the column.
+    fn end(&self) -> usize {
+        self.start + (self.length - 1) * self.step() + self.size
+    }
+
+    /// Whether the two have a byte in common. Columns of different strides whose ranges meet are taken as overlapping.
+    fn meets(&self, other: &Self) -> bool {
+        let apart = other.start >= self.end() || self.start >= other.end();
+        let step = self.step();
+        let between = || {
+            let offset = self.start.abs_diff(other.start) % step;
+            step == other.step() && offset >= self.size && offset + other.size <= step
+        };
+        !apart && !between()
+    }
+}
+
+/// Refuses outputs that overlap each other, or an input without being the same column.
+pub(crate) fn check_apart<'a>(places: impl Iterator<Item = Place<'a>>) -> Result<(), Failure> {
+    let mut places: Vec<Place> = places.filter(|place| place.length > 0).collect();
+    places.sort_unstable_by_key(|place| place.start);
+    for (k, one) in places.iter().enumerate() {
+        let end = one.end();
+        for other in places[k + 1..].iter().take_while(|other| other.start < end) {
+            let same = (one.start, one.step()) == (other.start, other.step());
+            let allowed = match one.is_output as u8 + other.is_output as u8 {
+                0 => true,
+                1 => same,
+                _ => false,
+            };
+            if !allowed && one.meets(other) {
+                let (output, with) = if one.is_output { (one, other) } else { (other, one) };
+                let allowed = "columns without common values; an output may be exactly an input's column";
+                return Err(Failure::argument(output.name, format!("overlapping {}", with.name), allowed));
+            }
+        }
+    }
+    Ok(())
 }
 
 #[cfg(test)]
@@ -151,8 +298,8 @@ mod tests {
             // SAFETY: as many values; the last of `written` is not part of the column.
             let (input, output) = unsafe {
                 (
-                    Input::new("x", values.as_ptr(), length).expect("not null"),
-                    Output::new(written.as_mut_ptr(), length),
+                    Input::contiguous("x", values.as_ptr(), length).expect("not null"),
+                    Output::contiguous("y", written.as_mut_ptr(), length),
                 )
             };
             for first in (0..length).step_by(LANES) {
@@ -164,8 +311,7 @@ mod tests {
                 output.write_one(length - 1, 2.0);
                 assert_eq!((written[length - 1], input.at(length - 1)), (2.0, length as f64 - 0.5));
             }
-            // SAFETY: nobody writes to `values`.
-            assert_eq!(unsafe { input.slice() }, values);
+            assert_eq!(input.to_vec(), values);
             assert!(input.check_finite().is_ok() && input.position(|v| v > 3.0) == (length > 3).then_some(3));
         }
     }
@@ -175,8 +321,9 @@ mod tests {
         let mut column: Vec<f64> = (0..13).map(f64::from).collect();
         let start = column.as_mut_ptr();
         // SAFETY: thirteen values, which nobody else touches.
-        let (input, output) =
-            unsafe { (Input::new("x", start, 13).expect("not null"), Output::new(start, 13)) };
+        let (input, output) = unsafe {
+            (Input::contiguous("x", start, 13).expect("not null"), Output::contiguous("y", start, 13))
+        };
         for first in (0..13).step_by(LANES) {
             output.write(first, &input.lanes(first).map(|value| 2.0 * value));
         }
@@ -186,14 +333,40 @@ mod tests {
     #[test]
     fn null_is_no_column_but_of_no_cells() {
         // SAFETY: null.
-        let (none, empty) =
-            unsafe { (Input::new("x", std::ptr::null(), 3), Input::new("x", std::ptr::null(), 0)) };
+        let (none, empty) = unsafe {
+            (Input::contiguous("x", std::ptr::null(), 3), Input::contiguous("x", std::ptr::null(), 0))
+        };
         assert!(none.is_err_and(|error| error.to_string() == "x is NULL"));
         // SAFETY: empty; null outputs are not written.
         unsafe {
-            assert!(empty.expect("empty").slice().is_empty());
-            Output::<f64>::new(std::ptr::null_mut(), 3).write(0, &[1.0; LANES]);
-            Output::<u8>::new(std::ptr::null_mut(), 2).write_all(&[1, 2]);
+            assert!(empty.expect("empty").to_vec().is_empty());
+            Output::<f64>::contiguous("y", std::ptr::null_mut(), 3).write(0, &[1.0; LANES]);
+            Output::<u8>::contiguous("y", std::ptr::null_mut(), 2).write_all(&[1, 2]);
+        }
+    }
+
+    /// Strided columns touch their own cells alone, at each length around that of a block.
+    #[test]
+    fn strided_columns_interleave() {
+        for length in 1..20 {
+            let mut memory = vec![-7.0; 3 * length];
+            let start = memory.as_mut_ptr();
+            for part in [2, 0] {
+                // SAFETY: inside of `memory`, which nobody else touches.
+                let (input, output) = unsafe {
+                    let place = start.add(part);
+                    (
+                        Input::new("x", msdd_input { values: place, stride: 3 }, length).expect("good"),
+                        Output::new("y", msdd_output { values: place, stride: 3 }, length).expect("good"),
+                    )
+                };
+                for first in (0..length).step_by(LANES) {
+                    output.write(first, &std::array::from_fn(|lane| (first + lane + part) as f64));
+                    assert_eq!(input.lanes(first)[0], (first + part) as f64);
+                }
+                assert_eq!(input.to_vec(), (0..length).map(|i| (i + part) as f64).collect::<Vec<f64>>());
+            }
+            assert!((0..length).all(|i| memory[3 * i + 1] == -7.0 && memory[3 * i] == i as f64));
         }
     }
 }

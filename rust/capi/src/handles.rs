@@ -2,12 +2,11 @@
 
 use crate::model::BatchModel;
 use crate::status::c_string;
-use msdd_surrogate::spheres::{self, model::SphereModel};
 use std::ffi::CString;
 use std::sync::Arc;
 
-/// Behind `msdd_surrogate`.
-pub(crate) struct SurrogateHandle {
+/// Behind `msdd_model`.
+pub(crate) struct ModelHandle {
     pub model: Arc<dyn BatchModel>,
     pub hash: CString,
     pub description: CString,
@@ -16,7 +15,7 @@ pub(crate) struct SurrogateHandle {
     pub state_names: Vec<CString>,
 }
 
-impl SurrogateHandle {
+impl ModelHandle {
     pub fn new(model: Arc<dyn BatchModel>) -> Self {
         let names = model.state_names();
         Self {
@@ -24,25 +23,6 @@ impl SurrogateHandle {
             description: c_string(&model.description().to_string()),
             state_names: names.iter().map(|name| c_string(name)).collect(),
             names,
-            model,
-        }
-    }
-}
-
-/// Behind `msdd_spheres`.
-pub(crate) struct SpheresHandle {
-    pub model: SphereModel,
-    pub hash: CString,
-    pub description: CString,
-    pub state_names: Vec<CString>,
-}
-
-impl SpheresHandle {
-    pub fn new(model: SphereModel) -> Self {
-        Self {
-            hash: c_string(model.hash()),
-            description: c_string(&model.to_json()),
-            state_names: spheres::model::NAMES.map(c_string).to_vec(),
             model,
         }
     }

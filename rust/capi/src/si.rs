@@ -1,6 +1,7 @@
 //! Conversion of dimensionless results to SI units. No other file converts.
 
-use crate::abi::msdd_material;
+use crate::abi::msdd_grains;
+use crate::grains::Grains;
 use crate::status::Failure;
 use msdd_surrogate::kernel::Lanes;
 
@@ -18,13 +19,12 @@ pub(crate) const LARGEST_STRESS: f64 = 1e30;
 impl Si {
     /// Checks the scales against the ranges that materials can have. Within these, K, E r and the stresses of any state
     /// are finite and above zero.
-    pub fn new(material: &msdd_material) -> Result<Self, Failure> {
-        let &msdd_material { thermal_conductivity, young_modulus, mean_radius, .. } = material;
-        let conductivity = (1e-12, 1e12, "1e-12 to 1e12 W/(m K)");
-        check_scale("material.thermal_conductivity", thermal_conductivity, conductivity)?;
+    pub fn new(grains: &Grains) -> Result<Self, Failure> {
+        let msdd_grains { conductivity, young_modulus, radius, .. } = grains.numbers;
+        check_scale("material.conductivity", conductivity, (1e-12, 1e12, "1e-12 to 1e12 W/(m K)"))?;
         check_scale("material.young_modulus", young_modulus, (1e-9, 1e15, "1e-9 to 1e15 Pa"))?;
-        check_scale("material.mean_radius", mean_radius, (1e-12, 1e6, "1e-12 to 1e6 m"))?;
-        Ok(Self { conductivity: thermal_conductivity, stress: young_modulus * mean_radius / DEPTH })
+        check_scale("material.radius", radius, (1e-12, 1e6, "1e-12 to 1e6 m"))?;
+        Ok(Self { conductivity, stress: young_modulus * radius / DEPTH })
     }
 
     /// K = k K̃ [W/(m K)].

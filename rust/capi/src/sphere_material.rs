@@ -1,7 +1,7 @@
-//! Spheres and gas of a caller, and the conductivity of a bed of them.
+//! Properties of spheres and gas, and the conductivity of a bed of them.
 
-use crate::abi::msdd_sphere_material;
-use crate::status::{Failure, utf8};
+use crate::grains::Grains;
+use crate::status::Failure;
 use ::msdd_surrogate::spheres::model::Answers;
 use ::msdd_surrogate::spheres::readout::GAS_RANGE;
 use ::msdd_surrogate::spheres::tensor::Tensor;
@@ -12,7 +12,6 @@ use msdd_beds::radiation::{Dark, black, part};
 use msdd_beds::sizes::{MAX_SPREAD, equal_density, gas_factor};
 use msdd_beds::solid::{Roughness, Solid};
 use msdd_beds::wall::Radiating;
-use std::ffi::CStr;
 
 /// A checked material.
 #[derive(Clone, Copy)]
@@ -83,18 +82,17 @@ pub(crate) fn roughness(of: &str, height: f64, hardness: f64) -> Result<Option<R
 }
 
 impl Material {
-    /// # Safety
-    /// The material's gas is null or a C string.
-    pub unsafe fn new(given: &msdd_sphere_material) -> Result<Self, Failure> {
+    /// Checks the numbers.
+    pub fn new(grains: &Grains) -> Result<Self, Failure> {
         const OF: &str = "material";
-        let diameter = ranged("material.diameter", given.diameter, [1e-9, 1e3], "1e-9 to 1e3 m")?;
+        let given = &grains.numbers;
+        let radius = ranged("material.radius", given.radius, [5e-10, 500.0], "5e-10 to 500 m")?;
         let effective_modulus = 0.5 / compliance(OF, given.young_modulus, given.poisson_ratio)?;
         let conductivity = conductivity(OF, given.conductivity)?;
         let roughness = roughness(OF, given.roughness, given.hardness)?;
-        let gas = match given.gas.is_null() {
-            true => GasName::Vacuum,
-            // SAFETY: not null, a C string by this function's contract.
-            false => named("material.gas", &utf8("material.gas", unsafe { CStr::from_ptr(given.gas) })?)?,
+        let gas = match &grains.gas {
+            None => GasName::Vacuum,
+            Some(name) => named("material.gas", name)?,
         };
         let (mut gas_pressure, mut accommodation) = (1.0, 1.0);
         if gas != GasName::Vacuum {
@@ -107,7 +105,7 @@ impl Material {
         let allowed = format!("0 to {MAX_SPREAD}");
         let spread = ranged("material.size_spread", given.size_spread, [0.0, MAX_SPREAD], &allowed)?;
         let solid = Solid { conductivity, effective_modulus, roughness };
-        let bed = BedMaterial { radius: 0.5 * diameter, solid, gas, gas_pressure, accommodation };
+        let bed = BedMaterial { radius, solid, gas, gas_pressure, accommodation };
         Ok(Self { bed, emissivity, density: equal_density(spread), more_gas: gas_factor(spread) })
     }
 

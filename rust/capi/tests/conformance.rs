@@ -4,8 +4,8 @@
 
 mod common;
 
-use common::{Cells, MATERIAL, Model, OK, exported, last_error, plugin, text};
-use msdd::abi::{self, msdd_batch, msdd_material, msdd_surrogate};
+use common::{Cells, MATERIAL, Model, NOT_GIVEN, OK, Tables, UNWANTED, exported, last_error, plugin, text};
+use msdd::abi::{self, msdd_grains, msdd_input, msdd_model};
 use msdd::exports::*;
 use std::ptr::{null, null_mut};
 use std::sync::LazyLock;
@@ -34,13 +34,13 @@ fn a_model_describes_itself() {
     each(|name, model| {
         assert!(model.columns() >= 2, "{name}");
         // SAFETY: live.
-        let column = |k| unsafe { msdd_surrogate_state_name(model.0, k) };
+        let column = |k| unsafe { msdd_model_state_name(model.0, k) };
         assert_eq!([text(column(0)), text(column(1))], ["porosity", "fabric_index"], "{name}");
         assert!(column(model.columns()).is_null(), "{name}");
-        let hash = model.text(msdd_surrogate_hash);
+        let hash = model.text(msdd_model_hash);
         assert!(hash.len() == 64 && hash.chars().all(|c| c.is_ascii_hexdigit()), "{name}");
         let description: serde_json::Value =
-            serde_json::from_str(&model.text(msdd_surrogate_describe)).expect("JSON");
+            serde_json::from_str(&model.text(msdd_model_describe)).expect("JSON");
         assert_eq!(description["hash"], hash.as_str(), "{name}");
         assert_eq!(description["state"].as_array().map(Vec::len), Some(model.columns()), "{name}");
         assert!(
@@ -109,8 +109,7 @@ fn answers_are_those_of_grains() {
         assert!(states.next[0].iter().zip(&states.state[0]).all(|(after, before)| after < before), "{name}");
         let (porosity, mut solid) = ([0.09, 0.125, 0.15], [0.0; 3]);
         // SAFETY: live handle, columns of three.
-        let status =
-            unsafe { msdd_surrogate_solid_fraction(model.0, 3, porosity.as_ptr(), solid.as_mut_ptr()) };
+        let status = unsafe { msdd_model_solid_fraction(model.0, 3, porosity.as_ptr(), solid.as_mut_ptr()) };
         assert_eq!(status, OK, "{name}: {}", last_error());
         // Overlaps count twice.
         assert!(
@@ -129,10 +128,10 @@ fn far_outside_is_an_answer_too() {
         (cells.state[1][3], cells.thermal_strain[4]) = (f64::MAX, 1e6);
         (cells.state[0][5], cells.state[1][5], cells.thermal_strain[5]) = (1e200, -1e200, -0.999);
         cells.advance(model);
-        assert_eq!(cells.clamped, [0, 1, 1, 1, 1, 1, 0, 0, 0], "{name}");
-        assert_eq!(cells.clamped_cells, 5, "{name}");
-        assert!(cells.outside[0][1] > 1e300 && cells.outside[0][2] < -1e300, "{name}");
-        assert_eq!(cells.outside.iter().map(|column| column[8]).sum::<f64>(), 0.0, "{name}");
+        assert_eq!(cells.outside, [0, 1, 1, 1, 1, 1, 0, 0, 0], "{name}");
+        assert_eq!(cells.outside_cells, 5, "{name}");
+        assert!(cells.distance[0][1] > 1e300 && cells.distance[0][2] < -1e300, "{name}");
+        assert_eq!(cells.distance.iter().map(|column| column[8]).sum::<f64>(), 0.0, "{name}");
         assert!(cells.next.iter().flatten().all(|v| v.is_finite()), "{name}");
         assert!(cells.outputs[..2].iter().flatten().all(|k| *k > 0.0 && *k < 1e6), "{name}");
     });
@@ -147,7 +146,7 @@ fn bad_numbers_are_refused_with_column_and_index_and_nothing_is_written() {
         assert_eq!(cells.advance_with(model, |_| ()), status, "{name} {expected}");
         assert_eq!(last_error(), expected, "{name}");
         assert!(cells.next == before.next && cells.outputs == before.outputs, "{name}");
-        assert!(cells.clamped == before.clamped && cells.clamped_cells == 99, "{name}");
+        assert!(cells.outside == before.outside && cells.outside_cells == 99, "{name}");
     };
     let non_finite = abi::MSDD_NON_FINITE as i32;
     each(|name, model| {
@@ -161,10 +160,10 @@ fn bad_numbers_are_refused_with_column_and_index_and_nothing_is_written() {
         refused(name, model, &total, INVALID, "total_thermal_strain[0] = -1.5, allowed: above -1, to 10");
         if model.has_tangent() {
             let strain = |c: &mut Cells| c.strain[1][6] = f64::NAN;
-            refused(name, model, &strain, non_finite, "strain_yy[6] = NaN is not finite");
+            refused(name, model, &strain, non_finite, "strain[yy][6] = NaN is not finite");
             let strain = |c: &mut Cells| c.strain[2][5] = f64::INFINITY;
-            refused(name, model, &strain, non_finite, "strain_xy[5] = inf is not finite");
-            for (k, column) in ["strain_xx", "strain_yy", "strain_xy", "rotation"].iter().enumerate() {
+            refused(name, model, &strain, non_finite, "strain[xy][5] = inf is not finite");
+            for (k, column) in ["strain[xx]", "strain[yy]", "strain[xy]", "rotation[z]"].iter().enumerate() {
                 for bad in ["0.25", "-0.2"] {
                     let large = |c: &mut Cells| c.strain[k][4] = bad.parse().expect("a number");
                     let expected = format!("{column}[4] = {bad}, allowed: above -0.2, to 0.2");
@@ -178,35 +177,36 @@ fn bad_numbers_are_refused_with_column_and_index_and_nothing_is_written() {
 #[test]
 fn sizes_and_null_pointers_are_refused() {
     each(|name, model| {
-        let refused = |change: &dyn Fn(&mut msdd_batch), expected: &str| {
+        let refused = |change: &dyn Fn(&mut Tables), expected: &str| {
             let status = Cells::new(model, 5).advance_with(model, change);
             assert_eq!(status, INVALID, "{name} {expected}");
             assert!(last_error().contains(expected), "{name}: {}", last_error());
         };
-        refused(&|batch| batch.struct_size -= 8, "batch.struct_size");
-        refused(&|batch| batch.struct_size = 0, "batch.struct_size = 0");
-        refused(&|batch| batch.state = null(), "state is NULL");
-        refused(&|batch| batch.thermal_strain = null(), "thermal_strain is NULL");
-        refused(&|batch| batch.cells = usize::MAX, "cells");
+        refused(&|tables| tables.step.struct_size -= 8, "step.struct_size");
+        refused(&|tables| tables.step.struct_size = 0, "step.struct_size = 0");
+        refused(&|tables| tables.step.state = null(), "state is NULL");
+        refused(&|tables| tables.step.components = 6, "components = 6, allowed: 3");
+        refused(&|tables| tables.step.cells = usize::MAX, "cells");
         if !model.has_tangent() {
-            let column = [0.0; 5];
-            refused(&|batch| batch.strain_xx = column.as_ptr(), "has no mechanical tangent");
-            refused(&|batch| batch.strain_xy = column.as_ptr(), "has no mechanical tangent");
-            refused(&|batch| batch.rotation = column.as_ptr(), "has no mechanical tangent");
-            let mut tangent = [[0.0; 5]; 9];
-            let columns = tangent.each_mut().map(|column| column.as_mut_ptr());
-            refused(&|batch| batch.tangent = columns.as_ptr(), "has no mechanical tangent");
+            let mut zero = [0.0; 5];
+            let column = [msdd_input { values: zero.as_ptr(), stride: 1 }; 3];
+            refused(&|tables| tables.step.strain = column.as_ptr(), "has no mechanical tangent");
+            refused(&|tables| tables.step.rotation = column.as_ptr(), "has no mechanical tangent");
+            let mut columns = [UNWANTED; 9];
+            columns[8].values = zero.as_mut_ptr();
+            refused(&|tables| tables.step.tangent = columns.as_ptr(), "has no mechanical tangent");
         }
         let mut batch_of_none = Cells::new(model, 0);
-        let none =
-            |batch: &mut msdd_batch| (batch.thermal_strain, batch.total_thermal_strain) = (null(), null());
+        let none = |tables: &mut Tables| {
+            (tables.step.thermal_strain, tables.step.total_thermal_strain) = (NOT_GIVEN, NOT_GIVEN);
+        };
         assert_eq!(batch_of_none.advance_with(model, none), OK, "{name}: {}", last_error());
         // SAFETY: null handles and structs are refused.
         unsafe {
-            assert_eq!(msdd_surrogate_advance(model.0, &MATERIAL, null_mut()), INVALID, "{name}");
-            assert_eq!(msdd_surrogate_solid_fraction(model.0, 1, null(), null_mut()), INVALID, "{name}");
-            let half = msdd_material { struct_size: 16, ..MATERIAL };
-            let status = msdd_surrogate_initial_state(model.0, &half, null(), null());
+            assert_eq!(msdd_model_advance(model.0, &MATERIAL, null_mut()), INVALID, "{name}");
+            assert_eq!(msdd_model_solid_fraction(model.0, 1, null(), null_mut()), INVALID, "{name}");
+            let half = msdd_grains { struct_size: 16, ..MATERIAL };
+            let status = msdd_model_initial_state(model.0, &half, null(), null());
             assert!(status == INVALID && last_error().contains("material.struct_size = 16"), "{name}");
         }
     });
@@ -217,17 +217,20 @@ fn only_wanted_columns_are_written_and_a_state_may_advance_in_place() {
     each(|name, model| {
         let (mut apart, mut shared) = (Cells::new(model, 19), Cells::new(model, 19));
         apart.advance(model);
-        let in_place = |batch: &mut msdd_batch| {
-            batch.next_state = batch.state.cast();
-            (batch.stress_xx, batch.clamped, batch.outside) = (null_mut(), null_mut(), null());
+        let in_place = |tables: &mut Tables| {
+            tables.in_place();
+            tables.stress[0] = UNWANTED;
+            (tables.step.outside, tables.step.distance) = (null_mut(), null());
         };
         assert_eq!(shared.advance_with(model, in_place), OK, "{name}: {}", last_error());
         assert_eq!(shared.state, apart.next, "{name}");
-        assert!(shared.outputs[2] == [-7.0; 19] && shared.clamped == [9; 19], "{name}");
+        assert!(shared.outputs[2] == [-7.0; 19] && shared.outside == [9; 19], "{name}");
         assert_eq!(shared.outputs[0], apart.outputs[0], "{name}");
         // Even the total strain's column may take an answer.
         let mut over = apart.part(0, 19);
-        let same = |batch: &mut msdd_batch| batch.conductivity_xx = batch.total_thermal_strain.cast_mut();
+        let same = |tables: &mut Tables| {
+            tables.conductivity[0].values = tables.step.total_thermal_strain.values.cast_mut();
+        };
         assert_eq!(over.advance_with(model, same), OK, "{name}: {}", last_error());
         assert!(over.total == apart.outputs[0] && over.outputs[1..] == apart.outputs[1..], "{name}");
     });
@@ -338,12 +341,12 @@ fn conductivity_is_affine_or_network_by_choice() {
     let with = |model: &Model, kind: &std::ffi::CStr| {
         let mut out = null_mut();
         // SAFETY: live handle, a C string, and a writable pointer.
-        let status = unsafe { msdd_surrogate_with_conductivity(model.0, kind.as_ptr(), &mut out) };
+        let status = unsafe { msdd_model_with_conductivity(model.0, kind.as_ptr(), &mut out) };
         if status == OK { Ok(Model(out)) } else { Err((status, last_error())) }
     };
     each(|name, model| {
         let description: serde_json::Value =
-            serde_json::from_str(&model.text(msdd_surrogate_describe)).expect("JSON");
+            serde_json::from_str(&model.text(msdd_model_describe)).expect("JSON");
         for kind in [c"affine", c"network"] {
             let text = kind.to_str().expect("UTF-8");
             let known = description["conductivities"].as_array().expect("kinds").iter().any(|k| k == text);
@@ -394,14 +397,14 @@ fn the_exported_model_is_the_built_in_one() {
         a.advance(&built_in);
         b.advance(&foreign);
         assert!((0..501).all(|cell| a.bits(cell) == b.bits(cell)));
-        assert!(a.state == b.state && a.clamped_cells == b.clamped_cells);
+        assert!(a.state == b.state && a.outside_cells == b.outside_cells);
         a.state.clone_from(&a.next);
         b.state.clone_from(&b.next);
     }
     let friction = |model: &Model| {
         let (mut limit, mut slip) = (0.0, 0.0);
         // SAFETY: live handle, full struct, writable outputs.
-        let status = unsafe { msdd_surrogate_wall_friction(model.0, &MATERIAL, &mut limit, &mut slip) };
+        let status = unsafe { msdd_model_wall_friction(model.0, &MATERIAL, &mut limit, &mut slip) };
         (status, limit, slip)
     };
     assert_eq!(friction(&built_in), friction(&foreign));
@@ -451,9 +454,9 @@ fn plugin_failures_have_their_own_statuses() {
     cells.thermal_strain[0] = 0.5;
     assert_eq!(cells.advance_with(&model, |_| ()), plugin_status);
     assert!(last_error().contains("advance failed with status 4: hotter than the table"), "{}", last_error());
-    assert!(cells.next == before.next && cells.outputs == before.outputs && cells.clamped_cells == 99);
-    let handle: *const msdd_surrogate = model.0;
+    assert!(cells.next == before.next && cells.outputs == before.outputs && cells.outside_cells == 99);
+    let handle: *const msdd_model = model.0;
     // SAFETY: live handle, columns of one.
-    let status = unsafe { msdd_surrogate_solid_fraction(handle, 1, &0.1, &mut 0.0) };
+    let status = unsafe { msdd_model_solid_fraction(handle, 1, &0.1, &mut 0.0) };
     assert!(status == INVALID && last_error().contains("has solid fractions"), "{}", last_error());
 }

@@ -1,4 +1,4 @@
-"""A box of grains, packed and heated by DEM, beside the surrogate model's answer for the same box.
+"""A box of grains, packed and heated by DEM, compared with the model's answer for the same box.
 
     python3 box.py [GRAINS]                      # number of grains, 500 unless given
 """
@@ -18,8 +18,7 @@ state = model.initial_state(
     grains,
     start.porosity,
     start.fabric_index,
-    stress_xx=start.stress_xx,
-    stress_yy=start.stress_yy,
+    stress=[start.stress_xx, start.stress_yy, 0.0],
 )
 
 print("thermal strain   K_xx/k: box, model    K_yy/k: box, model    pressure [Pa]: box, model")

@@ -1,14 +1,14 @@
 """MSDD: multiscale data-driven simulation of heat conduction with thermal expansion in granular media.
 
     import msdd
-    model = msdd.load_model()                                     # surrogate of boxes of grains
+    model = msdd.load_model()                                     # model of boxes of discs
     glass = msdd.Material(thermal_conductivity=1.0, young_modulus=70e9, mean_radius=1e-3)
     state = model.initial_state(glass, porosity=[0.12, 0.14])     # arrays of any shape
     step = model.advance(glass, state, thermal_strain=0.01)       # step.conductivity_xx, step.stress_xx, ...
 
     steel = msdd.SphereMaterial(diameter=6e-3, young_modulus=2e11, poisson_ratio=0.3, conductivity=40, gas="air")
-    bed = msdd.load_spheres()                                     # law of packings of spheres with gas
-    step = bed.advance(steel, bed.initial_state(steel, solid_fraction=0.6, stress=1e4), thermal_strain=1e-4)
+    bed = msdd.load_model("builtin:spheres")                      # packings of spheres with gas
+    step = bed.advance(steel, bed.initial_state(steel, porosity=0.4, stress=1e4), thermal_strain=1e-4)
 
     box = msdd.pack(discs=500, porosity=0.13)                     # DEM
     box.strain(thermal=0.01)
@@ -36,10 +36,10 @@ from ._errors import (
 )
 from ._library import library_path
 from ._library import version as __version__
+from ._material import Material, SphereMaterial, SphereWall, wall_resistance
 from ._mesh import Mesh, read_mesh
-from ._model import Material, Model, Step, WallFriction, load_model
+from ._model import Model, Step, WallFriction, load_model
 from ._rve import Averages, Contacts, Grains, Rve, pack
-from ._spheres import SphereMaterial, Spheres, SphereStep, SphereWall, load_spheres, wall_resistance
 
 __all__ = [
     "Averages",
@@ -60,9 +60,7 @@ __all__ = [
     "Rve",
     "RveError",
     "SphereMaterial",
-    "SphereStep",
     "SphereWall",
-    "Spheres",
     "Step",
     "WallFriction",
     "__version__",
@@ -70,7 +68,6 @@ __all__ = [
     "generate_database",
     "library_path",
     "load_model",
-    "load_spheres",
     "pack",
     "read_database",
     "read_field",

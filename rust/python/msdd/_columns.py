@@ -9,6 +9,8 @@ from typing import Optional
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ._library import Column
+
 Array = NDArray[np.float64]
 State = dict[str, Array]
 """State of cells: an array for each name in `Model.state_names`, all of one shape."""
@@ -50,7 +52,29 @@ def address(array: NDArray[np.generic]) -> int:
     return array.ctypes.data
 
 
-def table(arrays: Iterable[NDArray[np.generic]]) -> c.Array[c.c_void_p]:
-    """Addresses of several columns, for a `double **`."""
-    addresses = [address(array) for array in arrays]
-    return (c.c_void_p * len(addresses))(*addresses)
+def column(array: NDArray[np.generic]) -> Column:
+    """A contiguous array as a column of the library; it has to live as long as the column is used."""
+    return Column(address(array), 1)
+
+
+def table(arrays: Iterable[NDArray[np.generic]]) -> c.Array[Column]:
+    """Several columns, for an `msdd_input *` or `msdd_output *`."""
+    columns = [column(array) for array in arrays]
+    return (Column * len(columns))(*columns)
+
+
+def components(name: str, values: ArrayLike, names: tuple[str, ...], isotropic: bool = False) -> dict[str, ArrayLike]:
+    """The components of a tensor or vector by name, from a list of as many arrays or an array with them along its first axis;
+    with `isotropic` also from a single number, which is then that of the normal components."""
+    count = len(names)
+    if np.ndim(values) == 0 and (isotropic or count == 1):
+        return {f"{name}_{key}": (values if key in ("xx", "yy", "zz", "z") else 0.0) for key in names}
+    if not isinstance(values, (list, tuple, np.ndarray)) or len(values) != count:
+        number = "a number, or " if isotropic else ""
+        raise ValueError(f"{name} is {number}{count} components, {', '.join(names)}, along its first axis")
+    return {f"{name}_{key}": values[index] for index, key in enumerate(names)}
+
+
+def count(shape: tuple[int, ...]) -> int:
+    """Number of cells of a shape."""
+    return int(np.prod(shape, dtype=np.int64))

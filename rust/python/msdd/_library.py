@@ -12,7 +12,7 @@ from typing import Optional, Union
 
 from ._errors import raise_for
 
-ABI_VERSION = 4
+ABI_VERSION = 5
 """Version of the C interface that this package was written for."""
 
 Doubles = c.c_void_p
@@ -28,37 +28,40 @@ def _each(kind: type, names: str) -> list[tuple[str, type]]:
     return [(name, kind) for name in names.split()]
 
 
-MaterialStruct = _struct("msdd_material", *_each(c.c_double, "thermal_conductivity young_modulus mean_radius"))
-InitialStruct = _struct(
-    "msdd_initial",
-    ("cells", c.c_size_t),
-    *_each(Doubles, "porosity fabric_index fabric_xy stress_xx stress_yy stress_xy"),
-    *_each(Doubles, "conductivity_xx conductivity_yy conductivity_xy"),
-)
-BatchStruct = _struct(
-    "msdd_batch",
-    ("cells", c.c_size_t),
-    *_each(Doubles, "state thermal_strain total_thermal_strain strain_xx strain_yy strain_xy rotation"),
-    *_each(Doubles, "next_state conductivity_xx conductivity_yy conductivity_xy stress_xx stress_yy stress_xy"),
-    *_each(Doubles, "tangent clamped outside spread"),
-    ("clamped_cells", c.c_size_t),
-)
-SphereMaterialStruct = _struct(
-    "msdd_sphere_material",
-    *_each(c.c_double, "diameter young_modulus poisson_ratio conductivity roughness hardness"),
+class Column(c.Structure):
+    """A column that is read or written: msdd_input and msdd_output."""
+
+    _fields_ = [("values", Doubles), ("stride", c.c_size_t)]
+
+
+GrainsStruct = _struct(
+    "msdd_grains",
+    *_each(c.c_double, "conductivity young_modulus radius poisson_ratio roughness hardness"),
     ("gas", c.c_char_p),
     *_each(c.c_double, "gas_pressure accommodation emissivity size_spread"),
+)
+StartStruct = _struct(
+    "msdd_start",
+    *_each(c.c_size_t, "cells components"),
+    *_each(Column, "porosity fabric_index fabric_xy solid_fraction"),
+    *_each(c.c_void_p, "stress conductivity fabric"),
+    *_each(Column, "coordination mobilised"),
+)
+StepStruct = _struct(
+    "msdd_step",
+    *_each(c.c_size_t, "cells components"),
+    ("state", c.c_void_p),
+    *_each(Column, "thermal_strain total_thermal_strain"),
+    *_each(c.c_void_p, "strain rotation"),
+    *_each(Column, "temperature solid_conductivity emissivity"),
+    *_each(c.c_void_p, "next_state stress tangent conductivity"),
+    *_each(Column, "gas_conductivity radiation_conductivity solid_fraction spread"),
+    *_each(c.c_void_p, "distance outside"),
+    ("outside_cells", c.c_size_t),
 )
 SphereWallStruct = _struct(
     "msdd_sphere_wall",
     *_each(c.c_double, "conductivity young_modulus poisson_ratio roughness hardness spheres emissivity"),
-)
-SphereBatchStruct = _struct(
-    "msdd_sphere_batch",
-    ("cells", c.c_size_t),
-    *_each(Doubles, "state thermal_strain strain rotation temperature solid_conductivity emissivity"),
-    *_each(Doubles, "next_state stress tangent conductivity gas_conductivity radiation_conductivity solid_fraction outside"),
-    ("outside_cells", c.c_size_t),
 )
 AveragesStruct = _struct(
     "msdd_averages",
@@ -73,8 +76,8 @@ Progress = c.CFUNCTYPE(c.c_int32, c.c_void_p, c.c_uint64, c.c_uint64, c.c_uint64
 
 _STATUS, _TEXT, _HANDLE = c.c_int32, c.c_char_p, c.c_void_p
 _OUT = c.POINTER(c.c_void_p)
-_MATERIAL = c.POINTER(MaterialStruct)
-_SPHERES = c.POINTER(SphereMaterialStruct)
+_GRAINS = c.POINTER(GrainsStruct)
+_COLUMNS = c.POINTER(Column)
 
 # Name: what it returns, what it takes.
 SIGNATURES: dict[str, tuple[Optional[type], list[type]]] = {
@@ -82,29 +85,22 @@ SIGNATURES: dict[str, tuple[Optional[type], list[type]]] = {
     "msdd_version": (_TEXT, []),
     "msdd_last_error": (_TEXT, []),
     "msdd_text_free": (None, [c.c_void_p]),
-    "msdd_surrogate_load": (_STATUS, [_TEXT, _OUT]),
-    "msdd_surrogate_with_conductivity": (_STATUS, [_HANDLE, _TEXT, _OUT]),
-    "msdd_surrogate_hash": (_TEXT, [_HANDLE]),
-    "msdd_surrogate_describe": (_TEXT, [_HANDLE]),
-    "msdd_surrogate_state_size": (c.c_size_t, [_HANDLE]),
-    "msdd_surrogate_state_name": (_TEXT, [_HANDLE, c.c_size_t]),
-    "msdd_surrogate_has_tangent": (c.c_int32, [_HANDLE]),
-    "msdd_surrogate_wall_friction": (_STATUS, [_HANDLE, _MATERIAL, c.POINTER(c.c_double), c.POINTER(c.c_double)]),
-    "msdd_surrogate_initial_state": (_STATUS, [_HANDLE, _MATERIAL, c.POINTER(InitialStruct), _OUT]),
-    "msdd_surrogate_advance": (_STATUS, [_HANDLE, _MATERIAL, c.POINTER(BatchStruct)]),
-    "msdd_surrogate_solid_fraction": (_STATUS, [_HANDLE, c.c_size_t, Doubles, Doubles]),
-    "msdd_surrogate_free": (None, [_HANDLE]),
-    "msdd_spheres_load": (_STATUS, [_TEXT, _OUT]),
-    "msdd_spheres_hash": (_TEXT, [_HANDLE]),
-    "msdd_spheres_describe": (_TEXT, [_HANDLE]),
-    "msdd_spheres_state_size": (c.c_size_t, [_HANDLE]),
-    "msdd_spheres_state_name": (_TEXT, [_HANDLE, c.c_size_t]),
-    "msdd_spheres_initial_state": (_STATUS, [_HANDLE, _SPHERES, c.c_size_t, Doubles, _OUT, Doubles, Doubles, _OUT, _OUT]),
-    "msdd_spheres_advance": (_STATUS, [_HANDLE, _SPHERES, c.POINTER(SphereBatchStruct)]),
-    "msdd_spheres_free": (None, [_HANDLE]),
-    "msdd_spheres_wall_resistance": (
+    "msdd_model_load": (_STATUS, [_TEXT, _OUT]),
+    "msdd_model_with_conductivity": (_STATUS, [_HANDLE, _TEXT, _OUT]),
+    "msdd_model_hash": (_TEXT, [_HANDLE]),
+    "msdd_model_describe": (_TEXT, [_HANDLE]),
+    "msdd_model_state_size": (c.c_size_t, [_HANDLE]),
+    "msdd_model_state_name": (_TEXT, [_HANDLE, c.c_size_t]),
+    "msdd_model_components": (c.c_size_t, [_HANDLE]),
+    "msdd_model_has_tangent": (c.c_int32, [_HANDLE]),
+    "msdd_model_wall_friction": (_STATUS, [_HANDLE, _GRAINS, c.POINTER(c.c_double), c.POINTER(c.c_double)]),
+    "msdd_model_initial_state": (_STATUS, [_HANDLE, _GRAINS, c.POINTER(StartStruct), _COLUMNS]),
+    "msdd_model_advance": (_STATUS, [_HANDLE, _GRAINS, c.POINTER(StepStruct)]),
+    "msdd_model_solid_fraction": (_STATUS, [_HANDLE, c.c_size_t, Doubles, Doubles]),
+    "msdd_model_free": (None, [_HANDLE]),
+    "msdd_wall_resistance": (
         _STATUS,
-        [_SPHERES, c.POINTER(SphereWallStruct), c.c_size_t, Doubles, Doubles, Doubles, Doubles],
+        [_GRAINS, c.POINTER(SphereWallStruct), c.c_size_t, Doubles, Doubles, Doubles, Doubles],
     ),
     "msdd_rve_pack": (_STATUS, [_TEXT, _OUT]),
     "msdd_rve_from_json": (_STATUS, [_TEXT, _OUT]),

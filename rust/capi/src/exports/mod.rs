@@ -2,17 +2,15 @@
 
 mod compared;
 mod database;
+mod model;
 mod rve;
-mod sphere_wall;
-mod spheres;
-mod surrogate;
+mod wall;
 
 pub use compared::*;
 pub use database::*;
+pub use model::*;
 pub use rve::*;
-pub use sphere_wall::*;
-pub use spheres::*;
-pub use surrogate::*;
+pub use wall::*;
 
 use crate::abi::MSDD_ABI_VERSION;
 use crate::status::{Failure, c_string, last_error, utf8, value};

@@ -1,30 +1,28 @@
 //! Results of a loaded model through the C functions.
 
-use super::{Cells, Handle, MATERIAL, MSDD_INVALID_ARGUMENT, MSDD_OK, last_error, text};
-use crate::abi::{self, msdd_initial};
-use crate::exports::*;
+use super::*;
+use crate::abi::msdd_start;
 use ::msdd_surrogate::surrogate::MAX_STATE;
 use std::ffi::{CStr, c_char};
-use std::ptr::{null, null_mut};
 
-const MODELS: [&CStr; 2] = [c"builtin", c"builtin:paper"];
+const MODELS: [&str; 2] = ["builtin", "builtin:paper"];
 
 #[test]
 fn answers_are_the_models_in_si() {
     for name in MODELS {
-        let handle = Handle::load(name);
-        let mut cells = Cells::new(&handle, 11);
+        let handle = load(name);
+        let mut cells = swelling(&handle, 11);
         cells.state[0][9] = 1e300;
-        assert_eq!(cells.advance(&handle), MSDD_OK, "{}", last_error());
-        let model = ::msdd_surrogate::models::builtin(name.to_str().expect("ASCII")).expect("shipped");
+        cells.advance(&handle);
+        let model = ::msdd_surrogate::models::builtin(name).expect("shipped");
         for cell in 0..11 {
             let mut state = [0.0; MAX_STATE];
             state.iter_mut().zip(&cells.state).for_each(|(value, column)| *value = column[cell]);
-            let expected = model.evaluate(&state, cells.strain[cell]);
+            let expected = model.evaluate(&state, cells.thermal_strain[cell]);
             let scale = 1e7 * 5e-3 * (1.0 + cells.total[cell]);
             let close = |o: usize, value: f64| {
                 let found: f64 = cells.outputs[o][cell];
-                assert!((found - value).abs() <= 1e-14 * value.abs(), "{name:?} {o}: {found} {value}");
+                assert!((found - value).abs() <= 1e-14 * value.abs(), "{name} {o}: {found} {value}");
             };
             for (column, lanes) in cells.next.iter().zip(&expected.state) {
                 assert_eq!(column[cell].to_bits(), lanes[0].to_bits());
@@ -35,23 +33,23 @@ fn answers_are_the_models_in_si() {
             }
             close(4, 100.0 * expected.conductivity[2][0]);
             close(5, scale * expected.stress[2][0]);
-            assert_eq!(cells.clamped[cell], u8::from(cell == 9), "{name:?} {cell} {expected:?}");
-            assert_eq!(cells.outside[0][cell] > 1.0, cell == 9);
+            assert_eq!(cells.outside[cell], u8::from(cell == 9), "{name} {cell} {expected:?}");
+            assert_eq!(cells.distance[0][cell] > 1.0, cell == 9);
         }
-        assert_eq!(cells.clamped_cells, 1);
+        assert_eq!(cells.outside_cells, 1);
     }
 }
 
 #[test]
 fn an_answer_does_not_depend_on_its_batch() {
-    let handle = Handle::builtin();
-    let mut all = Cells::new(&handle, 21);
-    assert_eq!(all.advance(&handle), MSDD_OK);
+    let handle = load("builtin");
+    let mut all = swelling(&handle, 21);
+    all.advance(&handle);
     for cell in 0..21 {
-        let mut one = Cells::new(&handle, 1);
+        let mut one = swelling(&handle, 1);
         one.state = all.state.iter().map(|column| vec![column[cell]]).collect();
-        (one.strain, one.total) = (vec![all.strain[cell]], vec![all.total[cell]]);
-        assert_eq!(one.advance(&handle), MSDD_OK);
+        (one.thermal_strain, one.total) = (vec![all.thermal_strain[cell]], vec![all.total[cell]]);
+        one.advance(&handle);
         for (single, batch) in one.outputs.iter().chain(&one.next).zip(all.outputs.iter().chain(&all.next)) {
             assert_eq!(single[0].to_bits(), batch[cell].to_bits());
         }
@@ -60,14 +58,10 @@ fn an_answer_does_not_depend_on_its_batch() {
 
 #[test]
 fn a_state_may_advance_in_place() {
-    let handle = Handle::builtin();
-    let (mut apart, mut shared) = (Cells::new(&handle, 19), Cells::new(&handle, 19));
-    assert_eq!(apart.advance(&handle), MSDD_OK);
-    let status = shared.with_batch(|batch| {
-        batch.next_state = batch.state.cast();
-        // SAFETY: live handle, full structs, columns of `cells` values.
-        unsafe { msdd_surrogate_advance(handle.0, &MATERIAL, batch) }
-    });
+    let handle = load("builtin");
+    let (mut apart, mut shared) = (swelling(&handle, 19), swelling(&handle, 19));
+    apart.advance(&handle);
+    let status = shared.advance_with(&handle, Tables::in_place);
     assert_eq!(status, MSDD_OK);
     assert_eq!(shared.state, apart.next);
     assert_eq!(shared.outputs, apart.outputs);
@@ -76,38 +70,30 @@ fn a_state_may_advance_in_place() {
 /// A start whose stress, conductivity and fabric are known answers with them; a cell that turns takes them with it.
 #[test]
 fn what_is_known_of_a_start_is_answered_and_turns_with_the_cell() {
-    let handle = Handle::builtin();
+    let handle = load("builtin");
     let columns = [0.12, 0.03, 0.004, 3500.0, 2500.0, 200.0, 31.0, 27.0, 1.0].map(|value| [value; 2]);
     let [porosity, fabric_index, fabric_xy, sxx, syy, sxy, kxx, kyy, kxy] =
-        columns.each_ref().map(|column| column.as_ptr());
-    let mut cells = Cells::new(&handle, 2);
-    let state: Vec<*mut f64> = cells.state.iter_mut().map(|c| c.as_mut_ptr()).collect();
-    let initial = msdd_initial {
-        struct_size: size_of::<msdd_initial>(),
+        columns.each_ref().map(|column| input(column));
+    let mut cells = swelling(&handle, 2);
+    let state = outputs(&mut cells.state);
+    let (stress, conductivity) = ([sxx, syy, sxy], [kxx, kyy, kxy]);
+    let start = msdd_start {
         cells: 2,
         porosity,
         fabric_index,
         fabric_xy,
-        stress_xx: sxx,
-        stress_yy: syy,
-        stress_xy: sxy,
-        conductivity_xx: kxx,
-        conductivity_yy: kyy,
-        conductivity_xy: kxy,
+        stress: stress.as_ptr(),
+        conductivity: conductivity.as_ptr(),
+        ..START
     };
     // SAFETY: live handle, full structs, columns of two values.
-    let status = unsafe { msdd_surrogate_initial_state(handle.0, &MATERIAL, &initial, state.as_ptr()) };
+    let status = unsafe { msdd_model_initial_state(handle.0, &MATERIAL, &start, state.as_ptr()) };
     assert_eq!(status, MSDD_OK, "{}", last_error());
-    (cells.strain, cells.total) = (vec![0.0; 2], vec![0.0; 2]);
+    (cells.thermal_strain, cells.total) = (vec![0.0; 2], vec![0.0; 2]);
     // The second cell turns by 0.1 rad.
     let angle: f64 = 0.1;
-    let rotation = [0.0, angle];
-    let status = cells.with_batch(|batch| {
-        batch.rotation = rotation.as_ptr();
-        // SAFETY: live handle, full structs, columns of `cells` values.
-        unsafe { msdd_surrogate_advance(handle.0, &MATERIAL, batch) }
-    });
-    assert_eq!(status, MSDD_OK, "{}", last_error());
+    cells.strain[3] = vec![0.0, angle];
+    cells.advance(&handle);
     let (sine, cosine) = (2.0 * angle).sin_cos();
     for ([xx, yy, xy], [o, p, q]) in [([3500.0, 2500.0, 200.0], [2, 3, 5]), ([31.0, 27.0, 1.0], [0, 1, 4])] {
         let close = |found: f64, expected: f64| {
@@ -127,22 +113,25 @@ fn what_is_known_of_a_start_is_answered_and_turns_with_the_cell() {
 
 #[test]
 fn zero_strain_and_unwanted_columns() {
-    let handle = Handle::builtin();
-    let mut cells = Cells::new(&handle, 3);
-    cells.strain = vec![0.0; 3];
-    let status = cells.with_batch(|batch| {
-        (batch.total_thermal_strain, batch.stress_xx) = (null(), null_mut());
-        (batch.clamped, batch.outside) = (null_mut(), null());
-        // SAFETY: live handle, full structs, columns null or of `cells` values.
-        unsafe { msdd_surrogate_advance(handle.0, &MATERIAL, batch) }
+    let handle = load("builtin");
+    let mut cells = swelling(&handle, 3);
+    cells.thermal_strain = vec![0.0; 3];
+    let status = cells.advance_with(&handle, |tables| {
+        (tables.step.total_thermal_strain, tables.stress[0]) = (NOT_GIVEN, UNWANTED);
+        (tables.step.outside, tables.step.distance) = (null_mut(), null());
     });
     assert_eq!(status, MSDD_OK, "{}", last_error());
-    assert!(cells.outputs[2] == [-7.0; 3] && cells.clamped == [9; 3] && cells.outputs[3][2] > 0.0);
+    assert!(cells.outputs[2] == [-7.0; 3] && cells.outside == [9; 3] && cells.outputs[3][2] > 0.0);
     assert_eq!(cells.next, cells.state);
-    let none = cells.with_batch(|batch| {
-        (batch.cells, batch.thermal_strain) = (0, null());
-        // SAFETY: no cells, so no column is touched.
-        unsafe { msdd_surrogate_advance(handle.0, &MATERIAL, batch) }
+    // No strain is a strain of 0.
+    let (mut none, stress) = (cells.clone(), cells.outputs[3].clone());
+    let absent = none.advance_with(&handle, |tables| {
+        (tables.step.thermal_strain, tables.step.total_thermal_strain) = (NOT_GIVEN, NOT_GIVEN);
+        (tables.step.strain, tables.step.rotation) = (null(), null());
+    });
+    assert_eq!((absent, &none.outputs[3]), (MSDD_OK, &stress));
+    let none = cells.advance_with(&handle, |tables| {
+        (tables.step.cells, tables.step.thermal_strain) = (0, NOT_GIVEN);
     });
     assert_eq!(none, MSDD_OK);
 }
@@ -151,38 +140,39 @@ fn zero_strain_and_unwanted_columns() {
 /// the message says so.
 #[test]
 fn the_tangent_is_the_derivative_of_the_stress() {
-    let handle = Handle::builtin();
+    let handle = load("builtin");
     // SAFETY: live.
-    assert_eq!(unsafe { msdd_surrogate_has_tangent(handle.0) }, 1);
+    assert_eq!(unsafe { msdd_model_has_tangent(handle.0) }, 1);
     let start = {
-        let mut cells = Cells::new(&handle, 5);
-        (cells.strain, cells.total) = (vec![0.0; 5], vec![0.0; 5]);
+        let mut cells = swelling(&handle, 5);
+        (cells.thermal_strain, cells.total) = (vec![0.0; 5], vec![0.0; 5]);
         cells
     };
     let base = [[-1e-4; 5], [2e-4; 5], [3e-4; 5]];
-    let mut tangent = vec![[-7.0; 5]; 9];
-    let mut spread = [-7.0; 5];
-    let mut strained = |moved: [[f64; 5]; 3], wants: bool| {
+    let strained = |moved: [[f64; 5]; 3], wants: bool| {
         let mut cells = start.clone();
-        let columns: Vec<*mut f64> = tangent.iter_mut().map(|column| column.as_mut_ptr()).collect();
-        let status = cells.with_batch(|batch| {
-            [batch.strain_xx, batch.strain_yy, batch.strain_xy] = moved.each_ref().map(|c| c.as_ptr());
-            batch.tangent = if wants { columns.as_ptr() } else { null() };
-            batch.spread = if wants { spread.as_mut_ptr() } else { null_mut() };
-            // SAFETY: live handle, full structs, columns of `cells` values.
-            unsafe { msdd_surrogate_advance(handle.0, &MATERIAL, batch) }
+        cells.strain = [moved[0].to_vec(), moved[1].to_vec(), moved[2].to_vec(), vec![0.0; 5]];
+        let status = cells.advance_with(&handle, |tables| {
+            if !wants {
+                (tables.step.tangent, tables.step.spread) = (null(), UNWANTED);
+            }
         });
         assert_eq!(status, MSDD_OK, "{}", last_error());
+        cells
+    };
+    let stress = |moved: [[f64; 5]; 3], wants: bool| {
+        let cells = strained(moved, wants);
         [2, 3, 5].map(|output| cells.outputs[output].clone())
     };
     let here = strained(base, true);
-    assert_eq!(here, strained(base, false), "the same stress with and without tangent");
+    let (tangent, spread) = (&here.outputs[6..], &here.spread);
+    assert_eq!(stress(base, true), stress(base, false), "the same stress with and without tangent");
     let h = 1e-8;
     let sides = [0, 1, 2].map(|j| {
         [-h, h].map(|by| {
             let mut moved = base;
             moved[j].iter_mut().for_each(|value| *value += by);
-            strained(moved, false)
+            stress(moved, false)
         })
     });
     for (j, [low, high]) in sides.iter().enumerate() {
@@ -195,25 +185,18 @@ fn the_tangent_is_the_derivative_of_the_stress() {
     }
     assert!((0..5).all(|cell| tangent[0][cell] > 1e3 && tangent[4][cell] > 1e3), "stiff in Pa: {tangent:?}");
     assert!(spread.iter().all(|s| *s > 0.0 && *s < 1.0));
-    let closing = [-1e-4; 5];
-    let paper = Handle::load(c"builtin:paper");
-    let mut cells = Cells::new(&paper, 5);
-    let status = cells.with_batch(|batch| {
-        batch.strain_yy = closing.as_ptr();
-        // SAFETY: live handle, full structs, columns of `cells` values.
-        unsafe { msdd_surrogate_advance(paper.0, &MATERIAL, batch) }
-    });
+    let paper = load("builtin:paper");
+    let status = swelling(&paper, 5).advance_of(paper.0, &MATERIAL, true, |_| ());
     assert_eq!(status, MSDD_INVALID_ARGUMENT);
     assert!(last_error().contains("no mechanical tangent"), "{}", last_error());
 }
 
 #[test]
 fn strings_and_solid_fraction() {
-    let handle = Handle::builtin();
+    let handle = load("builtin");
     // SAFETY: live or null handle.
-    let (hash, description, none) = unsafe {
-        (msdd_surrogate_hash(handle.0), msdd_surrogate_describe(handle.0), msdd_surrogate_hash(null()))
-    };
+    let (hash, description, none) =
+        unsafe { (msdd_model_hash(handle.0), msdd_model_describe(handle.0), msdd_model_hash(null())) };
     assert!(none.is_null());
     assert_eq!(text(hash).len(), 64);
     assert!(text(description).contains(&text(hash)) && text(description).contains("provenance"));
@@ -221,12 +204,12 @@ fn strings_and_solid_fraction() {
     let (version, abi_version) = unsafe { (msdd_version(), msdd_abi_version()) };
     assert_eq!((text(version).as_str(), abi_version), (env!("CARGO_PKG_VERSION"), abi::MSDD_ABI_VERSION));
     // SAFETY: live handle.
-    let name = |column| unsafe { msdd_surrogate_state_name(handle.0, column) };
+    let name = |column| unsafe { msdd_model_state_name(handle.0, column) };
     assert_eq!([text(name(0)), text(name(1))], ["porosity", "fabric_index"]);
     assert!(name(99).is_null());
     let (porosity, mut solid) = ([0.125; 9], [0.0; 9]);
     // SAFETY: live handle, columns of nine.
-    let status = unsafe { msdd_surrogate_solid_fraction(handle.0, 9, porosity.as_ptr(), solid.as_mut_ptr()) };
+    let status = unsafe { msdd_model_solid_fraction(handle.0, 9, porosity.as_ptr(), solid.as_mut_ptr()) };
     assert!(status == MSDD_OK && solid.iter().all(|s| *s > 0.875 && *s < 0.95), "{solid:?}");
 }
 
@@ -242,9 +225,9 @@ fn compared(hash: &CStr, quantity: &CStr) -> Result<[f64; 2], i32> {
 
 #[test]
 fn the_ranges_that_were_compared_are_told_by_the_hash_of_the_model() {
-    let model = Handle::builtin();
+    let model = load("builtin");
     // SAFETY: live, and owned by the model.
-    let hash = unsafe { CStr::from_ptr(msdd_surrogate_hash(model.0)) };
+    let hash = unsafe { CStr::from_ptr(msdd_model_hash(model.0)) };
     let [least, most] = compared(hash, c"reduced_pressure").expect("compared");
     assert!(0.0 < least && least < 0.03 && most > 0.09, "{least} {most}");
     assert_eq!(compared(hash, c"heat_source"), Ok([0.0, 0.0]));

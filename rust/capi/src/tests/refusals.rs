@@ -1,30 +1,25 @@
 //! Inputs that are refused: with which status and message, and that nothing is written then.
 
-use super::{
-    Cells, Handle, MATERIAL, MSDD_INTERNAL, MSDD_INVALID_ARGUMENT, MSDD_IO, MSDD_MODEL, MSDD_NON_FINITE,
-    MSDD_OK, last_error,
-};
-use crate::abi::{msdd_batch, msdd_initial, msdd_material, msdd_surrogate};
-use crate::exports::*;
+use super::*;
+use crate::abi::{msdd_grains, msdd_model, msdd_start};
 use crate::status::status;
 use std::ffi::{CStr, CString};
-use std::ptr::{null, null_mut};
 
 #[test]
 fn bad_input_is_named_and_nothing_is_written() {
-    let handle = Handle::builtin();
+    let handle = load("builtin");
     let refused = |column: usize, value: f64, expected_status: i32, expected: &str| {
-        let mut cells = Cells::new(&handle, 13);
+        let mut cells = swelling(&handle, 13);
         match column {
             0 | 1 => cells.state[column][10] = value,
-            2 => cells.strain[10] = value,
+            2 => cells.thermal_strain[10] = value,
             _ => cells.total[10] = value,
         }
         let before = cells.clone();
-        assert_eq!(cells.advance(&handle), expected_status);
+        assert_eq!(cells.advance_with(&handle, |_| ()), expected_status);
         assert_eq!(last_error(), expected);
-        assert!(cells.outputs == before.outputs && cells.clamped == before.clamped);
-        assert!(cells.next == before.next && cells.clamped_cells == 99);
+        assert!(cells.outputs == before.outputs && cells.outside == before.outside);
+        assert!(cells.next == before.next && cells.outside_cells == 99);
     };
     refused(0, f64::NAN, MSDD_NON_FINITE, "porosity[10] = NaN is not finite");
     refused(1, f64::INFINITY, MSDD_NON_FINITE, "fabric_index[10] = inf is not finite");
@@ -36,31 +31,38 @@ fn bad_input_is_named_and_nothing_is_written() {
 
 #[test]
 fn bad_arguments_are_refused() {
-    let handle = Handle::builtin();
-    let mut cells = Cells::new(&handle, 4);
-    let mut refused = |handle: *const msdd_surrogate,
-                       material: *const msdd_material,
-                       change: &dyn Fn(&mut msdd_batch),
+    let handle = load("builtin");
+    let mut cells = swelling(&handle, 4);
+    let mut refused = |handle: *const msdd_model,
+                       material: *const msdd_grains,
+                       change: &dyn Fn(&mut Tables),
                        expected: &str| {
-        let status = cells.with_batch(|batch| {
-            change(batch);
-            // SAFETY: null or live handle, null or full structs, columns null or of `cells` values.
-            unsafe { msdd_surrogate_advance(handle, material, batch) }
-        });
-        assert_eq!(status, MSDD_INVALID_ARGUMENT);
-        assert!(last_error().contains(expected), "{}", last_error());
+        let status = cells.advance_of(handle, material, true, change);
+        assert_eq!(status, MSDD_INVALID_ARGUMENT, "{expected}");
+        assert!(last_error().contains(expected), "{expected}: {}", last_error());
     };
-    refused(null(), &MATERIAL, &|_| (), "surrogate is NULL");
+    refused(null(), &MATERIAL, &|_| (), "model is NULL");
     refused(handle.0, null(), &|_| (), "material is NULL");
-    refused(handle.0, &MATERIAL, &|batch| batch.struct_size = 8, "batch.struct_size = 8");
-    refused(handle.0, &msdd_material { struct_size: 0, ..MATERIAL }, &|_| (), "material.struct_size = 0");
-    refused(handle.0, &MATERIAL, &|batch| batch.state = null(), "state is NULL");
-    refused(handle.0, &MATERIAL, &|batch| batch.thermal_strain = null(), "thermal_strain is NULL");
-    refused(handle.0, &MATERIAL, &|batch| batch.cells = usize::MAX, "cells");
+    refused(handle.0, &MATERIAL, &|tables| tables.step.struct_size = 8, "step.struct_size = 8");
+    refused(handle.0, &msdd_grains { struct_size: 0, ..MATERIAL }, &|_| (), "material.struct_size = 0");
+    refused(handle.0, &MATERIAL, &|tables| tables.step.state = null(), "state is NULL");
+    refused(handle.0, &MATERIAL, &|tables| tables.state[0] = NOT_GIVEN, "porosity is NULL");
+    refused(handle.0, &MATERIAL, &|tables| tables.step.cells = usize::MAX, "cells");
+    refused(handle.0, &MATERIAL, &|tables| tables.step.components = 6, "components = 6, allowed: 3");
+    // What discs do not compute is refused where it is wanted; what they do not use may be given.
+    let column = [300.0; 4];
+    let mut scratch = [0.0; 4];
+    let wanted = output(&mut scratch);
+    let gas = &|tables: &mut Tables| tables.step.gas_conductivity = wanted;
+    refused(handle.0, &MATERIAL, gas, "gas_conductivity = not NULL, allowed: NULL");
+    let solid = &|tables: &mut Tables| tables.step.solid_fraction = wanted;
+    refused(handle.0, &MATERIAL, solid, "solid_fraction = not NULL");
+    let warm = |tables: &mut Tables| tables.step.temperature = input(&column);
+    assert_eq!(swelling(&handle, 4).advance_with(&handle, warm), MSDD_OK, "{}", last_error());
     for bad in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-        refused(handle.0, &msdd_material { young_modulus: bad, ..MATERIAL }, &|_| (), "young_modulus");
-        refused(handle.0, &msdd_material { thermal_conductivity: bad, ..MATERIAL }, &|_| (), "conductivity");
-        refused(handle.0, &msdd_material { mean_radius: bad, ..MATERIAL }, &|_| (), "mean_radius");
+        refused(handle.0, &msdd_grains { young_modulus: bad, ..MATERIAL }, &|_| (), "young_modulus");
+        refused(handle.0, &msdd_grains { conductivity: bad, ..MATERIAL }, &|_| (), "conductivity");
+        refused(handle.0, &msdd_grains { radius: bad, ..MATERIAL }, &|_| (), "radius");
     }
 }
 
@@ -68,47 +70,39 @@ fn bad_arguments_are_refused() {
 /// and the message gives its range.
 #[test]
 fn scales_keep_answers_numbers_or_are_refused() {
-    let handle = Handle::builtin();
+    let handle = load("builtin");
     let ends = [[1e-12, 1e12], [1e-9, 1e15], [1e-12, 1e6]];
     for choice in 0..8 {
-        let [thermal_conductivity, young_modulus, mean_radius] = [0, 1, 2].map(|k| ends[k][choice >> k & 1]);
-        let material = msdd_material { thermal_conductivity, young_modulus, mean_radius, ..MATERIAL };
-        let mut cells = Cells::new(&handle, 9);
+        let [conductivity, young_modulus, radius] = [0, 1, 2].map(|k| ends[k][choice >> k & 1]);
+        let material = msdd_grains { conductivity, young_modulus, radius, ..MATERIAL };
+        let mut cells = swelling(&handle, 9);
         cells.state[2][4] = f64::MAX;
-        let status = cells.with_batch(|batch| {
-            // SAFETY: live handle, full structs, columns of `cells` values.
-            unsafe { msdd_surrogate_advance(handle.0, &material, batch) }
-        });
+        let status = cells.advance_of(handle.0, &material, false, |_| ());
         assert_eq!(status, MSDD_OK, "{}", last_error());
         let positive = cells.outputs[..4].iter().flatten().all(|value| value.is_normal() && *value > 0.0);
         assert!(positive && cells.outputs[4..].iter().flatten().all(|value| value.is_finite()), "{cells:?}");
-        let (mut porosity, mut fabric_index) = ([0.12; 2], [0.0; 2]);
-        let (stress, conductivity) = ([-1e30, 1e30], [1e-30, 1e30]);
-        let mut rest = vec![[0.0; 2]; handle.columns() - 2];
-        let state = [&mut porosity, &mut fabric_index].map(|column| column.as_mut_ptr());
-        let state: Vec<*mut f64> = state.into_iter().chain(rest.iter_mut().map(|c| c.as_mut_ptr())).collect();
-        let initial = msdd_initial {
-            struct_size: size_of::<msdd_initial>(),
+        let (porosity, fabric_index) = ([0.12; 2], [0.0; 2]);
+        let (stress, k) = ([-1e30, 1e30], [1e-30, 1e30]);
+        let mut rest = vec![vec![0.0; 2]; handle.columns()];
+        let state = outputs(&mut rest);
+        let (stress, conductivity) = ([input(&stress); 3], [input(&k), input(&k), input(&stress)]);
+        let start = msdd_start {
             cells: 2,
-            porosity: state[0],
-            fabric_index: state[1],
-            fabric_xy: null(),
-            stress_xx: stress.as_ptr(),
-            stress_yy: stress.as_ptr(),
-            stress_xy: stress.as_ptr(),
-            conductivity_xx: conductivity.as_ptr(),
-            conductivity_yy: conductivity.as_ptr(),
-            conductivity_xy: stress.as_ptr(),
+            porosity: input(&porosity),
+            fabric_index: input(&fabric_index),
+            stress: stress.as_ptr(),
+            conductivity: conductivity.as_ptr(),
+            ..START
         };
         // SAFETY: live handle, full structs, columns of two values.
-        let status = unsafe { msdd_surrogate_initial_state(handle.0, &material, &initial, state.as_ptr()) };
+        let status = unsafe { msdd_model_initial_state(handle.0, &material, &start, state.as_ptr()) };
         assert_eq!(status, MSDD_OK, "{}", last_error());
         assert!(rest.iter().flatten().all(|value| value.is_finite()), "{rest:?}");
     }
     for (k, name, range) in [
-        (0, "thermal_conductivity", "1e-12 to 1e12 W/(m K)"),
+        (0, "conductivity", "1e-12 to 1e12 W/(m K)"),
         (1, "young_modulus", "1e-9 to 1e15 Pa"),
-        (2, "mean_radius", "1e-12 to 1e6 m"),
+        (2, "radius", "1e-12 to 1e6 m"),
     ] {
         for (bad, shown) in [
             (0.99 * ends[k][0], None),
@@ -118,12 +112,9 @@ fn scales_keep_answers_numbers_or_are_refused() {
         ] {
             let mut scales = [100.0, 1e7, 5e-3];
             scales[k] = bad;
-            let [thermal_conductivity, young_modulus, mean_radius] = scales;
-            let material = msdd_material { thermal_conductivity, young_modulus, mean_radius, ..MATERIAL };
-            let status = Cells::new(&handle, 2).with_batch(|batch| {
-                // SAFETY: live handle, full structs, columns of `cells` values.
-                unsafe { msdd_surrogate_advance(handle.0, &material, batch) }
-            });
+            let [conductivity, young_modulus, radius] = scales;
+            let material = msdd_grains { conductivity, young_modulus, radius, ..MATERIAL };
+            let status = swelling(&handle, 2).advance_of(handle.0, &material, false, |_| ());
             let expected = format!("material.{name} = {}", shown.unwrap_or_default());
             let message = last_error();
             assert_eq!(status, MSDD_INVALID_ARGUMENT, "{message}");
@@ -138,37 +129,33 @@ fn scales_keep_answers_numbers_or_are_refused() {
 /// An initial value that no packing has is refused: the message names the first such cell, and nothing is written.
 #[test]
 fn a_start_that_no_packing_has_is_refused() {
-    for source in [c"builtin", c"builtin:paper"] {
-        let handle = Handle::load(source);
+    for source in ["builtin", "builtin:paper"] {
+        let handle = load(source);
         let refused = |column: usize, value: f64, expected: &str| {
             let usual = [0.12, 0.0, 0.01, 1e3, 1e3, 10.0, 30.0, 30.0, 0.5];
             let mut columns = usual.map(|value| vec![value; 11]);
             columns[column][7] = value;
             let mut state = vec![vec![-7.0; 11]; handle.columns()];
-            let pointers: Vec<*mut f64> = state.iter_mut().map(|c| c.as_mut_ptr()).collect();
-            let initial = msdd_initial {
-                struct_size: size_of::<msdd_initial>(),
+            let pointers = outputs(&mut state);
+            let given = inputs(&columns);
+            let start = msdd_start {
                 cells: 11,
-                porosity: columns[0].as_ptr(),
-                fabric_index: columns[1].as_ptr(),
-                fabric_xy: columns[2].as_ptr(),
-                stress_xx: columns[3].as_ptr(),
-                stress_yy: columns[4].as_ptr(),
-                stress_xy: columns[5].as_ptr(),
-                conductivity_xx: columns[6].as_ptr(),
-                conductivity_yy: columns[7].as_ptr(),
-                conductivity_xy: columns[8].as_ptr(),
+                porosity: given[0],
+                fabric_index: given[1],
+                fabric_xy: given[2],
+                stress: given[3..].as_ptr(),
+                conductivity: given[6..].as_ptr(),
+                ..START
             };
             // SAFETY: live handle, full structs, columns of eleven values.
-            let status =
-                unsafe { msdd_surrogate_initial_state(handle.0, &MATERIAL, &initial, pointers.as_ptr()) };
+            let status = unsafe { msdd_model_initial_state(handle.0, &MATERIAL, &start, pointers.as_ptr()) };
             assert_eq!((status, last_error().as_str()), (MSDD_INVALID_ARGUMENT, expected));
             assert!(state.iter().flatten().all(|value| *value == -7.0));
             if column == 0 {
                 let mut solid = [-7.0; 11];
                 // SAFETY: live handle, columns of eleven values.
                 let status = unsafe {
-                    msdd_surrogate_solid_fraction(handle.0, 11, columns[0].as_ptr(), solid.as_mut_ptr())
+                    msdd_model_solid_fraction(handle.0, 11, columns[0].as_ptr(), solid.as_mut_ptr())
                 };
                 assert_eq!((status, last_error().as_str()), (MSDD_INVALID_ARGUMENT, expected));
                 assert_eq!(solid, [-7.0; 11]);
@@ -179,35 +166,89 @@ fn a_start_that_no_packing_has_is_refused() {
         refused(0, 1e300, "porosity[7] = 1e300, allowed: 0 to 1");
         refused(1, -1.5, "fabric_index[7] = -1.5, allowed: -1 to 1");
         refused(2, 1.5, "fabric_xy[7] = 1.5, allowed: -1 to 1");
-        refused(3, -2e30, "stress_xx[7] = -2e30, allowed: -1e30 to 1e30 Pa");
-        refused(4, 1e300, "stress_yy[7] = 1e300, allowed: -1e30 to 1e30 Pa");
-        refused(5, -2e30, "stress_xy[7] = -2e30, allowed: -1e30 to 1e30 Pa");
-        refused(6, -1.0, "conductivity_xx[7] = -1, allowed: above 0, to 1e30 W/(m K)");
-        refused(7, 0.0, "conductivity_yy[7] = 0, allowed: above 0, to 1e30 W/(m K)");
-        refused(7, 1e31, "conductivity_yy[7] = 1e31, allowed: above 0, to 1e30 W/(m K)");
-        refused(8, 1e31, "conductivity_xy[7] = 1e31, allowed: -1e30 to 1e30 W/(m K)");
+        refused(3, -2e30, "stress[xx][7] = -2e30, allowed: -1e30 to 1e30 Pa");
+        refused(4, 1e300, "stress[yy][7] = 1e300, allowed: -1e30 to 1e30 Pa");
+        refused(5, -2e30, "stress[xy][7] = -2e30, allowed: -1e30 to 1e30 Pa");
+        refused(6, -1.0, "conductivity[xx][7] = -1, allowed: above 0, to 1e30 W/(m K)");
+        refused(7, 0.0, "conductivity[yy][7] = 0, allowed: above 0, to 1e30 W/(m K)");
+        refused(7, 1e31, "conductivity[yy][7] = 1e31, allowed: above 0, to 1e30 W/(m K)");
+        refused(8, 1e31, "conductivity[xy][7] = 1e31, allowed: -1e30 to 1e30 W/(m K)");
     }
+}
+
+/// Columns at a stride give the bits of contiguous ones; a stride of 0 and overlapping outputs are refused, and then nothing is
+/// written. An output may be exactly an input's column.
+#[test]
+fn columns_have_strides_and_do_not_overlap() {
+    let handle = load("builtin");
+    let mut apart = Cells::new(&handle, 13);
+    apart.advance(&handle);
+    // Tensors xx, xy, xz, yy, yz, zz, as OpenFOAM stores them.
+    let (mut k, mut strain) = (vec![-7.0; 6 * 13], vec![0.0; 6 * 13]);
+    for (component, at) in [(0, 0), (1, 3), (2, 1)] {
+        (0..13).for_each(|cell| strain[6 * cell + at] = apart.strain[component][cell]);
+    }
+    let (k_start, strain_start) = (k.as_mut_ptr(), strain.as_ptr());
+    let mut together = apart.part(0, 13);
+    let interleaved = |tables: &mut Tables| {
+        for (component, at) in [(0, 0), (1, 3), (2, 1)] {
+            tables.conductivity[component] =
+                crate::abi::msdd_output { values: k_start.wrapping_add(at), stride: 6 };
+            tables.strain[component] =
+                crate::abi::msdd_input { values: strain_start.wrapping_add(at), stride: 6 };
+        }
+    };
+    assert_eq!(together.advance_with(&handle, interleaved), MSDD_OK, "{}", last_error());
+    assert!(together.next == apart.next && together.outputs[2..4] == apart.outputs[2..4]);
+    for cell in 0..13 {
+        let found = [k[6 * cell], k[6 * cell + 3], k[6 * cell + 1]].map(f64::to_bits);
+        assert_eq!(found, [0, 1, 4].map(|o: usize| apart.outputs[o][cell].to_bits()));
+        assert!([2, 4, 5].iter().all(|&other| k[6 * cell + other] == -7.0));
+    }
+
+    let refused = |change: &dyn Fn(&mut Tables), expected: &str| {
+        let mut cells = Cells::new(&handle, 13);
+        let before = cells.clone();
+        assert_eq!(cells.advance_with(&handle, change), MSDD_INVALID_ARGUMENT, "{expected}");
+        assert!(last_error().contains(expected), "{expected}: {}", last_error());
+        assert!(cells == before);
+    };
+    refused(&|tables| tables.state[1].stride = 0, "fabric_index.stride = 0, allowed: 1 or more");
+    refused(&|tables| tables.step.thermal_strain.stride = 0, "thermal_strain.stride = 0");
+    refused(&|tables| tables.stress[1].stride = 0, "stress.stride = 0");
+    refused(&|tables| tables.step.thermal_strain.stride = usize::MAX / 8, "thermal_strain.stride = ");
+    refused(&|tables| tables.stress[1] = tables.stress[0], "stress = overlapping stress");
+    refused(&|tables| tables.conductivity[0] = tables.next_state[2], "overlapping");
+    let shifted = |tables: &mut Tables| {
+        tables.stress[0].values = tables.step.thermal_strain.values.cast_mut().wrapping_add(1);
+    };
+    refused(&shifted, "stress = overlapping thermal_strain");
+    let wide = |tables: &mut Tables| {
+        tables.conductivity[0] = crate::abi::msdd_output { values: k_start, stride: 5 };
+        tables.conductivity[1] = crate::abi::msdd_output { values: k_start.wrapping_add(3), stride: 6 };
+    };
+    refused(&wide, "conductivity = overlapping conductivity");
 }
 
 #[test]
 fn loading_says_what_is_wrong() {
-    let load = |source: &CStr| {
+    let refused = |source: &CStr| {
         let mut out = null_mut();
         // SAFETY: a C string and a writable pointer.
-        let status = unsafe { msdd_surrogate_load(source.as_ptr(), &mut out) };
+        let status = unsafe { msdd_model_load(source.as_ptr(), &mut out) };
         assert!(out.is_null());
         (status, last_error())
     };
-    let (status, message) = load(c"no/such/model.json");
+    let (status, message) = refused(c"no/such/model.json");
     assert!(status == MSDD_IO && message.contains("no/such/model.json"), "{status} {message}");
     let manifest = CString::new(concat!(env!("CARGO_MANIFEST_DIR"), "/Cargo.toml")).expect("no NUL");
-    let (status, message) = load(&manifest);
+    let (status, message) = refused(&manifest);
     assert!(status == MSDD_MODEL && message.contains("damaged"), "{status} {message}");
-    assert_eq!(load(c"\xff").0, MSDD_INVALID_ARGUMENT);
-    let (status, message) = load(c"builtin:best");
+    assert_eq!(refused(c"\xff").0, MSDD_INVALID_ARGUMENT);
+    let (status, message) = refused(c"builtin:best");
     assert!(status == MSDD_MODEL && message.contains("builtin:paper"), "{status} {message}");
     // SAFETY: null is allowed.
-    assert_eq!(unsafe { msdd_surrogate_load(null(), null_mut()) }, MSDD_INVALID_ARGUMENT);
+    assert_eq!(unsafe { msdd_model_load(null(), null_mut()) }, MSDD_INVALID_ARGUMENT);
 }
 
 #[test]

@@ -1,10 +1,8 @@
 //! Boxes of grains and databases.
 
-use super::{MSDD_CANCELLED, MSDD_INVALID_ARGUMENT, MSDD_OK, MSDD_RVE, last_error, text};
-use crate::abi::{self, msdd_averages, msdd_rve};
-use crate::exports::*;
+use super::*;
+use crate::abi::{msdd_averages, msdd_rve};
 use std::ffi::{CStr, CString};
-use std::ptr::null_mut;
 
 fn pack(specification: &CStr) -> Result<*mut msdd_rve, (i32, String)> {
     let mut rve = null_mut();

@@ -64,7 +64,7 @@ pub fn model(text: &str) -> Result<bool, String> {
     }
     let (porosity, mut solid) = ([0.0, 0.1, 0.9], [f64::NAN; 3]);
     // SAFETY: live handle, columns of three.
-    let status = unsafe { msdd_surrogate_solid_fraction(model.0, 3, porosity.as_ptr(), solid.as_mut_ptr()) };
+    let status = unsafe { msdd_model_solid_fraction(model.0, 3, porosity.as_ptr(), solid.as_mut_ptr()) };
     match status == OK && solid.iter().all(|s| s.is_finite()) {
         true => Ok(true),
         false => Err(format!("accepted, but its solid fractions are {solid:?}")),

@@ -1,9 +1,9 @@
-//! The function of `msdd.h` about walls beside beds of spheres.
+//! The function of `msdd.h` about walls of beds of spheres.
 
 use super::sized;
-use crate::abi::{msdd_sphere_material, msdd_sphere_wall};
-use crate::batch::check_length;
-use crate::columns::{Input, Output};
+use crate::abi::{msdd_grains, msdd_sphere_wall};
+use crate::columns::{Input, Output, check_length};
+use crate::grains::Grains;
 use crate::si::LARGEST_STRESS;
 use crate::sphere_material::{Material, compliance, conductivity, ranged, roughness};
 use crate::status::{Failure, status};
@@ -12,7 +12,7 @@ use msdd_beds::wall::{Radiating, Wall};
 /// Largest resistance that is answered \[m² K/W\], where nothing conducts.
 const LARGEST: f64 = 1e9;
 
-/// A caller's wall beside spheres of (1 − ν²)/E \[1/Pa\].
+/// A caller's wall next to spheres of (1 − ν²)/E \[1/Pa\].
 fn surface(given: &msdd_sphere_wall, spheres_give: f64) -> Result<Wall, Failure> {
     const OF: &str = "wall";
     let both = compliance(OF, given.young_modulus, given.poisson_ratio)? + spheres_give;
@@ -23,14 +23,14 @@ fn surface(given: &msdd_sphere_wall, spheres_give: f64) -> Result<Wall, Failure>
     Ok(Wall { conductivity, effective_modulus: 1.0 / both, roughness, spheres })
 }
 
-/// `msdd_spheres_wall_resistance`
+/// `msdd_wall_resistance`
 ///
 /// # Safety
 /// `material` is null or points to its struct, whose gas is null or a C string; `wall` is null or points to its struct; the columns are
 /// null or hold `faces` values, `resistance` writable ones.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn msdd_spheres_wall_resistance(
-    material: *const msdd_sphere_material,
+pub unsafe extern "C" fn msdd_wall_resistance(
+    material: *const msdd_grains,
     wall: *const msdd_sphere_wall,
     faces: usize,
     stress: *const f64,
@@ -42,7 +42,7 @@ pub unsafe extern "C" fn msdd_spheres_wall_resistance(
         check_length(faces)?;
         // SAFETY: null or pointing to their structs with a C string, by this function's contract.
         let (material, wall) =
-            unsafe { (Material::new(&sized("material", material)?)?, sized("wall", wall)?) };
+            unsafe { (Material::new(&Grains::new(sized("material", material)?)?)?, sized("wall", wall)?) };
         let bed = material.bed();
         let emissivity = ranged("wall.emissivity", wall.emissivity, [0.0, 1.0], "0 to 1")?;
         let wall = surface(&wall, 0.5 / material.modulus())?;
@@ -52,10 +52,10 @@ pub unsafe extern "C" fn msdd_spheres_wall_resistance(
         // SAFETY: `faces` values, writable ones of the last, by this function's contract.
         let (stress, temperature, conductivity, resistance) = unsafe {
             (
-                Input::new("stress", stress, faces)?,
-                Input::new("temperature", temperature, faces)?,
-                Input::new("conductivity", conductivity, faces)?,
-                Output::new(resistance, faces),
+                Input::contiguous("stress", stress, faces)?,
+                Input::contiguous("temperature", temperature, faces)?,
+                Input::contiguous("conductivity", conductivity, faces)?,
+                Output::contiguous("resistance", resistance, faces),
             )
         };
         for column in [&stress, &temperature, &conductivity] {
