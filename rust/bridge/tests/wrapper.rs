@@ -96,7 +96,7 @@ fn exceptions_arrive_with_the_librarys_text() {
     assert_eq!(error.what(), "thermal_strain[7] = NaN is not finite");
     assert_eq!(bits(&cells), before);
     let error = model.advance_with_wrong_size(&mut start(&model)).expect_err("wrong size");
-    assert!(error.what().contains("batch.struct_size"), "{}", error.what());
+    assert!(error.what().contains("step.struct_size"), "{}", error.what());
 }
 
 /// An object that was moved from has no model, throws when it is used, and frees nothing; the new one frees the model once.
@@ -107,7 +107,7 @@ fn handles_move_and_are_freed_once() {
     let mut second = ffi::moved(first.pin_mut());
     assert!(second.hash() == hash && first.hash().is_empty() && first.state_size() == 0);
     let error = first.advance(&mut start(&second)).expect_err("moved from");
-    assert_eq!(error.what(), "surrogate is NULL");
+    assert_eq!(error.what(), "model is NULL");
     ffi::move_into_itself(second.pin_mut());
     assert_eq!(second.hash(), hash);
     let third = ffi::moved(second.pin_mut());

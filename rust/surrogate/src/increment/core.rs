@@ -1,11 +1,11 @@
 //! Answers of the law, a block of cells at a time.
 
 use super::law::{ELEMENTS, Elastic, Law, Moduli, Strain, rotation};
-use super::number::{Dual, Number, Plain};
 use super::readout::{CONDUCTIVITY_FLOOR, Conductivity, Features, Readout};
 use crate::dataset::ConductivityKind;
 use crate::kernel::vector::Vector;
 use crate::kernel::{LANES, Lanes, Task, dispatch};
+use crate::number::{Dual, Number};
 use crate::scaling::Range;
 use crate::surrogate::{Answer, Increment, MAX_STATE, StateLanes, Tangent};
 
@@ -126,8 +126,8 @@ impl Core {
         let xy = read::<V>(&strain.xy, MAX_STRAIN);
         let (next, moduli) = match tangent {
             None => {
-                let strain = Strain { thermal: Plain(thermal), xx: Plain(xx), yy: Plain(yy), xy: Plain(xy) };
-                self.law.advanced(&before, &strain, [Plain(turn[0]), Plain(turn[1])])
+                let strain = Strain { thermal: thermal, xx: xx, yy: yy, xy: xy };
+                self.law.advanced(&before, &strain, [turn[0], turn[1]])
             }
             Some(tangent) => {
                 let strain = Strain {
@@ -151,19 +151,19 @@ impl Core {
     #[inline(always)]
     fn with_tangent<V: Vector>(
         &self,
-        before: &Elastic<Plain<V>>,
-        strain: &Strain<Dual<V>>,
+        before: &Elastic<V>,
+        strain: &Strain<Dual<V, 3>>,
         turn: [V; 2],
         tangent: &mut Tangent,
-    ) -> (Elastic<Plain<V>>, Moduli<Plain<V>>) {
+    ) -> (Elastic<V>, Moduli<V>) {
         let mut from = Elastic {
-            jamming: Dual::of(before.jamming.0),
-            compression: Dual::of(before.compression.0),
+            jamming: Dual::of(before.jamming),
+            compression: Dual::of(before.compression),
             shear: [[Dual::of(V::zero()); 2]; ELEMENTS],
-            strength: Dual::of(before.strength.0),
+            strength: Dual::of(before.strength),
         };
         for k in 0..ELEMENTS {
-            from.shear[k] = [Dual::of(before.shear[k][0].0), Dual::of(before.shear[k][1].0)];
+            from.shear[k] = [Dual::of(before.shear[k][0]), Dual::of(before.shear[k][1])];
         }
         let (next, moduli) = self.law.advanced(&from, strain, [Dual::of(turn[0]), Dual::of(turn[1])]);
         let [p, q1, q2] = self.law.stress(&next, &moduli);
@@ -173,18 +173,18 @@ impl Core {
             }
         }
         let mut values = Elastic {
-            jamming: Plain(next.jamming.value),
-            compression: Plain(next.compression.value),
+            jamming: next.jamming.value,
+            compression: next.compression.value,
             shear: before.shear,
             strength: before.strength,
         };
         for k in 0..ELEMENTS {
-            values.shear[k] = [Plain(next.shear[k][0].value), Plain(next.shear[k][1].value)];
+            values.shear[k] = [next.shear[k][0].value, next.shear[k][1].value];
         }
         let moduli = Moduli {
-            pressure: Plain(moduli.pressure.value),
-            ratio: Plain(moduli.ratio.value),
-            growth: Plain(moduli.growth.value),
+            pressure: moduli.pressure.value,
+            ratio: moduli.ratio.value,
+            growth: moduli.growth.value,
         };
         (values, moduli)
     }
@@ -194,18 +194,18 @@ impl Core {
     fn write<V: Vector>(
         &self,
         state: &StateLanes,
-        before: &Elastic<Plain<V>>,
-        (next, moduli): (&Elastic<Plain<V>>, &Moduli<Plain<V>>),
+        before: &Elastic<V>,
+        (next, moduli): (&Elastic<V>, &Moduli<V>),
         (turn, moved): ([V; 2], V),
         after: &mut Answer,
     ) {
         let stress = self.law.stress(next, moduli);
-        let features = Features::of(&stress, next.looseness().0);
-        let porosity = V::all(1.0) - next.solid().0 + self.readout.overlap(&features);
+        let features = Features::of(&stress, next.looseness());
+        let porosity = V::all(1.0) - next.solid() + self.readout.overlap(&features);
         let porosity = porosity.within(V::zero(), V::all(MAX_POROSITY));
         // Part of the fabric follows the stress; the rest of it turns with the cell, by twice its angle.
         let old = self.law.stress(before, &self.law.moduli(before.compression, before.looseness()));
-        let old = Features::of(&old, before.looseness().0);
+        let old = Features::of(&old, before.looseness());
         let from =
             self.readout.fabric(&old, V::read(&state[POROSITY]).within(V::zero(), V::all(MAX_POROSITY)));
         let to = self.readout.fabric(&features, porosity);
@@ -220,11 +220,11 @@ impl Core {
         values[POROSITY] = porosity;
         values[FABRIC_INDEX] = fabric[0];
         values[FABRIC_SHEAR] = fabric[1];
-        values[JAMMING] = next.jamming.0;
-        values[COMPRESSION] = next.compression.0;
+        values[JAMMING] = next.jamming;
+        values[COMPRESSION] = next.compression;
         for k in 0..ELEMENTS {
-            values[SHEAR + 2 * k] = next.shear[k][0].0;
-            values[SHEAR + 2 * k + 1] = next.shear[k][1].0;
+            values[SHEAR + 2 * k] = next.shear[k][0];
+            values[SHEAR + 2 * k + 1] = next.shear[k][1];
         }
         values[STRENGTH] = V::read(&state[STRENGTH]);
         values[OWN_MEAN] = V::read(&state[OWN_MEAN]);
@@ -234,7 +234,7 @@ impl Core {
             values[k] = moved.where_greater(V::zero(), values[k], V::read(&state[k]));
             values[k].write(&mut after.state[k]);
         }
-        let [Plain(p), Plain(q1), Plain(q2)] = stress;
+        let [p, q1, q2] = stress;
         (p + q1).write(&mut after.stress[0]);
         (p - q1).write(&mut after.stress[1]);
         q2.write(&mut after.stress[2]);
@@ -288,17 +288,17 @@ fn read<V: Vector>(lanes: &Lanes, most: f64) -> V {
 }
 
 #[inline(always)]
-fn elastic<V: Vector>(law: &Law, state: &StateLanes) -> Elastic<Plain<V>> {
-    let jamming = Plain(V::read(&state[JAMMING]).within(V::all(MIN_JAMMING), V::all(MAX_JAMMING)));
+fn elastic<V: Vector>(law: &Law, state: &StateLanes) -> Elastic<V> {
+    let jamming = V::read(&state[JAMMING]).within(V::all(MIN_JAMMING), V::all(MAX_JAMMING));
     let compression = V::read(&state[COMPRESSION]).within(V::all(MIN_COMPRESSION), V::all(MAX_COMPRESSION));
-    let compression = Plain(compression);
+    let compression = compression;
     let mut all = [[jamming; 2]; ELEMENTS];
     for k in 0..ELEMENTS {
         let along = read::<V>(&state[SHEAR + 2 * k], MAX_SHEAR);
-        all[k] = [Plain(along), Plain(read::<V>(&state[SHEAR + 2 * k + 1], MAX_SHEAR))];
+        all[k] = [along, read::<V>(&state[SHEAR + 2 * k + 1], MAX_SHEAR)];
     }
     let strength = V::read(&state[STRENGTH]).within(V::all(MIN_STRENGTH), V::all(law.most_strength()));
-    let strength = Plain(strength);
+    let strength = strength;
     Elastic { jamming, compression, shear: all, strength }
 }
 

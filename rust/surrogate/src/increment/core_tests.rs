@@ -230,10 +230,10 @@ fn energy(state: &[f64; MAX_STATE]) -> f64 {
     let v = state[COMPRESSION].max(0.0);
     let at = |v: f64| {
         let loose = elastic::<Portable>(&core.law, &lanes(state)).looseness();
-        let moduli = core.law.moduli(Plain(Portable::all(v)), loose);
+        let moduli = core.law.moduli(Portable::all(v), loose);
         let mut lanes = [[0.0; LANES]; 2];
-        moduli.pressure.0.write(&mut lanes[0]);
-        (moduli.pressure * moduli.ratio).0.write(&mut lanes[1]);
+        moduli.pressure.write(&mut lanes[0]);
+        (moduli.pressure * moduli.ratio).write(&mut lanes[1]);
         lanes.map(|lanes| lanes[0])
     };
     // Simpson's rule.

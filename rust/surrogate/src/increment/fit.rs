@@ -2,16 +2,16 @@
 
 use super::core::{COMPRESSION, Core, JAMMING, SHEAR, STRENGTH};
 use super::law::{ELEMENTS, Elastic, Element, Law, least_third_bulk};
-use super::number::Plain;
 use super::paths::{States, follow, stresses};
 use super::readout::{Conductivity, Features, Readout, conductivity_row, direction_rows, fabric_rows};
 use crate::dataset::ConductivityKind;
 use crate::kernel::vector::{Arithmetic, Portable};
 use crate::least_squares;
-use crate::levenberg_marquardt::{LeastSquares, Limits, Minimum, NormalEquations, minimise};
+use crate::levenberg_marquardt::{Limits, Minimum, minimise};
+use crate::path_fit::Paths;
 use crate::surrogate::MAX_STATE;
 use crate::tracks::{Point, Track};
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DVector;
 use std::ops::ControlFlow;
 
 /// Elastic compression at which contacts have mostly formed; too small for the data to determine.
@@ -19,21 +19,15 @@ const ONSET: f64 = 1e-3;
 /// Added to the pressure of a state, over which its errors are taken: a fifth of that of the loosest packings, so that states
 /// that hardly bear load do not dominate.
 const PRESSURE_SCALE: f64 = 0.003;
-/// Error above which a residual counts less than by its square, since some packings rearrange suddenly.
-const ROBUST: f64 = 0.03;
 /// Weight of the differences of probes over their strain.
 pub(super) const PROBE_WEIGHT: f64 = 0.6;
 /// Number of grains of a packing whose errors have the weight 1; that of others goes with the root of their number.
 pub(super) const DEFAULT_DISCS: f64 = 500.0;
 /// Largest residual.
 pub(super) const MOST: f64 = 1.0;
-/// Relative step of the numerical derivatives.
-const STEP: f64 = 1e-4;
 /// Usual size of the coefficients of z, by which they are divided so that all parameters are of about equal size: z varies by
 /// a tenth of this number's inverse.
 const SIZE: f64 = 10.0;
-/// Number of parameters.
-const PARAMETERS: usize = 16;
 
 /// The law's numbers as parameters without bounds.
 pub fn parameters(law: &Law) -> DVector<f64> {
@@ -101,67 +95,21 @@ pub struct PathFit<'a> {
     pub threads: usize,
 }
 
-impl PathFit<'_> {
-    /// All residuals, in a fixed order.
-    pub fn residuals(&self, x: &DVector<f64>) -> Vec<f64> {
+impl Paths for PathFit<'_> {
+    /// Some packings rearrange suddenly.
+    const ROBUST: f64 = 0.03;
+
+    fn threads(&self) -> usize {
+        self.threads
+    }
+
+    fn residuals(&self, x: &DVector<f64>) -> Vec<f64> {
         let core = Core::of(law(x));
         let mut residuals = Vec::new();
         for (track, states) in self.tracks.iter().zip(follow(&core, self.tracks)) {
             add_residuals(track, &stresses(&core, &states), &mut residuals);
         }
         residuals
-    }
-
-    /// Residuals at several parameters, on the fit's threads.
-    fn residuals_of(&self, all: &[DVector<f64>]) -> Vec<Vec<f64>> {
-        let each = all.len().div_ceil(self.threads.max(1)).max(1);
-        std::thread::scope(|scope| {
-            let some = |some: &'_ [DVector<f64>]| some.iter().map(|x| self.residuals(x)).collect::<Vec<_>>();
-            let handles: Vec<_> = all.chunks(each).map(|chunk| scope.spawn(move || some(chunk))).collect();
-            handles.into_iter().flat_map(|handle| handle.join().unwrap_or_default()).collect()
-        })
-    }
-}
-
-/// Weight of a residual's square, and its share of the sum: that of a large residual grows less than with its square.
-pub(super) fn robust(residual: f64) -> [f64; 2] {
-    let ratio = residual / ROBUST;
-    let root = (1.0 + ratio * ratio).sqrt();
-    [1.0 / root, 2.0 * ROBUST * ROBUST * (root - 1.0)]
-}
-
-impl LeastSquares for PathFit<'_> {
-    fn mean_square(&self, x: &DVector<f64>) -> f64 {
-        let residuals = self.residuals(x);
-        residuals.iter().map(|&r| robust(r)[1]).sum::<f64>() / residuals.len().max(1) as f64
-    }
-
-    fn normal_equations(&self, x: &DVector<f64>) -> NormalEquations {
-        let steps: Vec<f64> = x.iter().map(|value| STEP * value.abs().max(0.1)).collect();
-        let moved = |(k, side): (usize, f64)| {
-            let mut x = x.clone();
-            x[k] += side * steps[k];
-            x
-        };
-        let sides = (0..PARAMETERS).flat_map(|k| [(k, 1.0), (k, -1.0)]).map(moved);
-        let at: Vec<DVector<f64>> = sides.chain([x.clone()]).collect();
-        let found = self.residuals_of(&at);
-        let here = &found[2 * PARAMETERS];
-        let mut matrix = DMatrix::zeros(PARAMETERS, PARAMETERS);
-        let mut gradient = DVector::zeros(PARAMETERS);
-        for (n, &residual) in here.iter().enumerate() {
-            let row: [f64; PARAMETERS] =
-                std::array::from_fn(|k| (found[2 * k][n] - found[2 * k + 1][n]) / (2.0 * steps[k]));
-            let [weight, _] = robust(residual);
-            for a in 0..PARAMETERS {
-                gradient[a] += weight * row[a] * residual;
-                for b in 0..=a {
-                    matrix[(a, b)] += weight * row[a] * row[b];
-                }
-            }
-        }
-        let count = here.len().max(1) as f64;
-        NormalEquations { matrix: matrix / count, gradient: gradient / count }
     }
 }
 
@@ -216,7 +164,7 @@ struct Seen<'a> {
 
 /// Features of the measured stress and the law's looseness.
 fn features(point: &Point, loose: f64) -> Features<f64> {
-    let stress = point.invariants().map(|value| Plain(Portable::all(value)));
+    let stress = point.invariants().map(|value| Portable::all(value));
     Features::of(&stress, Portable::all(loose)).first()
 }
 
@@ -330,11 +278,11 @@ fn directions(seen: &Seen, kind: ConductivityKind) -> [Option<(f64, [f64; 3])>; 
 
 /// z of a state, see [`super::law`].
 pub(super) fn looseness(state: &[f64; MAX_STATE]) -> f64 {
-    elastic(state).looseness().0.into_first()
+    elastic(state).looseness().into_first()
 }
 
-fn elastic(state: &[f64; MAX_STATE]) -> Elastic<Plain<Portable>> {
-    let column = |k: usize| Plain(Portable::all(state[k]));
+fn elastic(state: &[f64; MAX_STATE]) -> Elastic<Portable> {
+    let column = |k: usize| Portable::all(state[k]);
     Elastic {
         jamming: column(JAMMING),
         compression: column(COMPRESSION),

@@ -1,9 +1,9 @@
 //! The law of the increments: elastic energy, sliding, dilatancy and settling of grains, as in [`super`].
 
-use super::number::Number;
 use crate::SurrogateError;
 use crate::document::field;
 use crate::kernel::vector::Vector;
+use crate::number::Number;
 use serde::{Deserialize, Serialize};
 
 /// Number of parallel elements, each with an elastic shear strain of its own.
@@ -91,10 +91,10 @@ impl<N: Number> Elastic<N> {
     /// z: the porosity without stress, less the usual one; for packings denser or looser than all that are known, theirs.
     #[inline(always)]
     pub fn looseness(&self) -> N {
-        let (least, most) = (N::all(MIN_LOOSENESS), N::all(MAX_LOOSENESS));
+        let (least, most) = (N::constant(MIN_LOOSENESS), N::constant(MAX_LOOSENESS));
         let loose = self.jamming.times(-1.0).plus(1.0 - REFERENCE_POROSITY);
-        let loose = loose.where_greater(least, loose, least);
-        loose.where_greater(most, most, loose)
+        let loose = loose.where_above(least, loose, least);
+        loose.where_above(most, most, loose)
     }
 }
 
@@ -115,7 +115,7 @@ impl<N: Number> Moduli<N> {
     #[inline(always)]
     fn under_shear(&self, square: N) -> N {
         let (shear, least) = ((self.growth * square).times(0.5), self.pressure.times(MIN_SHARE - 1.0));
-        self.pressure + shear.where_greater(least, shear, least)
+        self.pressure + shear.where_above(least, shear, least)
     }
 }
 
@@ -135,25 +135,25 @@ pub struct Strain<N> {
 impl Law {
     #[inline(always)]
     pub fn moduli<N: Number>(&self, compression: N, loose: N) -> Moduli<N> {
-        let zero = N::all(0.0);
-        let (most, least) = (N::all(MAX_COMPRESSION), N::all(MIN_BULK));
-        let touching = compression.where_greater(zero, compression, zero);
-        let v = touching.where_greater(most, most, touching);
+        let zero = N::constant(0.0);
+        let (most, least) = (N::constant(MAX_COMPRESSION), N::constant(MIN_BULK));
+        let touching = compression.where_above(zero, compression, zero);
+        let v = touching.where_above(most, most, touching);
         let [l0, l1, l2] = self.looseness;
         let [first, second, third] = self.bulk;
         let stiffer = (loose * loose.times(l1).plus(l0)).plus(1.0);
-        let first = stiffer.where_greater(least, stiffer, least).times(first);
+        let first = stiffer.where_above(least, stiffer, least).times(first);
         let stiffer = loose.times(l2).plus(1.0);
-        let stiffer = stiffer.where_greater(least, stiffer, least);
+        let stiffer = stiffer.where_above(least, stiffer, least);
         // A second term that softens does not soften more than the file says.
-        let limit = if second < 0.0 { N::all(1.0) } else { stiffer };
-        let second = stiffer.where_greater(limit, limit, stiffer).times(second);
+        let limit = if second < 0.0 { N::constant(1.0) } else { stiffer };
+        let second = stiffer.where_above(limit, limit, stiffer).times(second);
         // The bulk modulus stays positive up to the largest compression, however loose the packing is.
         let softest = (first.times(0.5) + second.times(MAX_COMPRESSION))
             .times(-1.0 / (MAX_COMPRESSION * MAX_COMPRESSION));
         let limited = |third: f64, softest: N| {
-            let third = N::all(third);
-            third.where_greater(softest, third, softest)
+            let third = N::constant(third);
+            third.where_above(softest, third, softest)
         };
         let (third, a_third) = (limited(third, softest), limited(third / 3.0, softest.times(1.0 / 3.0)));
         let share = v * v.plus(self.onset).inverse();
@@ -181,7 +181,7 @@ impl Law {
     /// Stress of a state with these moduli.
     #[inline(always)]
     pub fn stress<N: Number>(&self, state: &Elastic<N>, moduli: &Moduli<N>) -> Stress<N> {
-        let zero = N::all(0.0);
+        let zero = N::constant(0.0);
         let (mut square, mut along, mut across) = (zero, zero, zero);
         for k in 0..ELEMENTS {
             let (share, [a, b]) = (self.elements[k].share, state.shear[k]);
@@ -202,7 +202,7 @@ impl Law {
         strain: &Strain<N>,
         turn: [N; 2],
     ) -> (Elastic<N>, Moduli<N>) {
-        let (zero, one, slack) = (N::all(0.0), N::all(1.0), N::all(SLACK));
+        let (zero, one, slack) = (N::constant(0.0), N::constant(1.0), N::constant(SLACK));
         let Strain { thermal, xx, yy, xy } = *strain;
         let half = xy.times(0.5);
         // Growth of the area of the grains, and of the cell.
@@ -222,10 +222,10 @@ impl Law {
             let [along, across] = turned(shear[k], turn);
             shear[k] = turned([along + yy - xx, across - xy], turn);
             let [along, across] = shear[k];
-            let length = (along * along + across * across).plus(TINY).sqrt();
+            let length = (along * along + across * across).plus(TINY).root();
             // Elastic load of the element over its strength.
             let load = (moduli.ratio * length * weaker).times(share / strength);
-            let kept = load.where_greater(slack, load.inverse(), one);
+            let kept = load.where_above(slack, load.inverse(), one);
             shear[k] = [along * kept, across * kept];
             lengths[k] = length * kept;
             slid[k] = length * (one - kept);
@@ -237,19 +237,19 @@ impl Law {
         let mut loss = zero;
         for (slid, element) in slid.into_iter().zip(&self.elements) {
             let (climbing, least) = (more.plus(element.dilatancy), most.times(element.strength));
-            loss = loss + slid * climbing.where_greater(least, climbing, least);
+            loss = loss + slid * climbing.where_above(least, climbing, least);
         }
         // Sliding ends where the grains lose contact, and those that do not touch do not climb.
-        let loss = loss.where_greater(tried, tried, loss);
-        let loss = tried.where_greater(zero, loss, zero);
+        let loss = loss.where_above(tried, tried, loss);
+        let loss = tried.where_above(zero, loss, zero);
         // Grains that part settle: they will touch again later than they came apart.
         let gap = |v: N| {
-            let open = v.where_greater(zero, zero, v);
-            let far = N::all(-SETTLED);
-            open.where_greater(far, open, far)
+            let open = v.where_above(zero, zero, v);
+            let far = N::constant(-SETTLED);
+            open.where_above(far, open, far)
         };
         let wider = gap(state.compression) - gap(tried);
-        let loss = loss + wider.where_greater(zero, wider, zero).times(self.settling);
+        let loss = loss + wider.where_above(zero, wider, zero).times(self.settling);
         let compression = tried - loss;
         let jamming = state.jamming + state.jamming * loss * compression.plus(1.0).inverse();
         let next = Elastic { jamming, compression, shear, strength: state.strength };
@@ -258,7 +258,7 @@ impl Law {
         for k in 0..ELEMENTS {
             let Element { share, strength, .. } = self.elements[k];
             let load = (moduli.ratio * lengths[k] * weaker).times(share / strength);
-            let kept = load.where_greater(slack, load.inverse(), one);
+            let kept = load.where_above(slack, load.inverse(), one);
             shear[k] = [shear[k][0] * kept, shear[k][1] * kept];
         }
         (Elastic { shear, ..next }, moduli)

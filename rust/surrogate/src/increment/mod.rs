@@ -34,7 +34,6 @@ pub mod fit;
 pub mod law;
 pub mod mean;
 pub mod model;
-pub mod number;
 pub mod paths;
 pub mod readout;
 pub mod start;

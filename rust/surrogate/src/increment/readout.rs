@@ -1,7 +1,6 @@
 //! What is computed from the elastic state: conductivity, overlaps of the grains, fabric.
 
 use super::law::Stress;
-use super::number::Plain;
 use crate::SurrogateError;
 use crate::dataset::ConductivityKind;
 use crate::document::field;
@@ -83,8 +82,8 @@ impl Features<f64> {
 
 impl<V: Arithmetic> Features<V> {
     #[inline(always)]
-    pub fn of(stress: &Stress<Plain<V>>, loose: V) -> Self {
-        let [Plain(p), Plain(q1), Plain(q2)] = *stress;
+    pub fn of(stress: &Stress<V>, loose: V) -> Self {
+        let [p, q1, q2] = *stress;
         let over = V::all(1.0) / (p + V::all(PRESSURE_FLOOR));
         let ratio = [q1 * over, q2 * over];
         let square = ratio[0].fused(ratio[0], ratio[1] * ratio[1]);

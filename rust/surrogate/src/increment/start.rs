@@ -1,7 +1,6 @@
 //! The state of a packing whose porosity, fabric and stress are known.
 
 use super::law::{ELEMENTS, Elastic, Law};
-use super::number::Plain;
 use super::readout::{Features, Readout};
 use crate::kernel::vector::{Arithmetic, Portable};
 
@@ -30,14 +29,14 @@ const LARGEST: f64 = 0.6;
 /// Relative difference up to which a pressure counts as the known one.
 const NEAR: f64 = 0.01;
 
-type Cell = Plain<Portable>;
+type Cell = Portable;
 
 fn cell(value: f64) -> Cell {
-    Plain(Portable::all(value))
+    Portable::all(value)
 }
 
 fn number(cell: Cell) -> f64 {
-    cell.0.into_first()
+    cell.into_first()
 }
 
 /// The state with porosity η, pressure p̃ and deviator (q̃₁, q̃₂).
@@ -48,9 +47,9 @@ pub fn start(law: &Law, readout: &Readout, porosity: f64, pressure: f64, deviato
         // In the first rounds the solid fraction may be one with which no compression has this pressure.
         let near = (number(stress[0]) - pressure).abs() <= NEAR * pressure || pressure <= 0.0;
         let known = [pressure, deviator[0], deviator[1]].map(cell);
-        let features = Features::of(if near { &stress } else { &known }, state.looseness().0);
+        let features = Features::of(if near { &stress } else { &known }, state.looseness());
         // Overlaps that no packing has are limited, because the rounds would diverge.
-        let found = 1.0 - porosity + number(Plain(readout.overlap(&features))).clamp(0.0, 1.0);
+        let found = 1.0 - porosity + number(readout.overlap(&features)).clamp(0.0, 1.0);
         let change = (found - solid).abs();
         solid = found;
         if change < ROUNDING {

@@ -2,20 +2,17 @@
 
 use super::contacts::Contacts;
 use super::law::Law;
-use super::parameters::{PARAMETERS, beginning, law, parameters};
+use super::parameters::{beginning, law, parameters};
 use super::state::FABRIC;
 use super::tensor::{Tensor, contraction, deviator, mean, sum};
 use super::tracks::{Track, follow};
-use crate::levenberg_marquardt::{LeastSquares, Limits, Minimum, NormalEquations, minimise};
-use nalgebra::{DMatrix, DVector};
+use crate::levenberg_marquardt::{Limits, Minimum, minimise};
+use crate::path_fit::Paths;
+use nalgebra::DVector;
 use std::ops::ControlFlow;
 
-/// Error above which a residual counts less than by its square, since some packings rearrange suddenly.
-const ROBUST: f64 = 0.2;
 /// Largest residuals of pressure, and of deviator and fabric.
 const MOST: [f64; 2] = [5.0, 3.0];
-/// Relative step of the numerical derivatives.
-const STEP: f64 = 1e-4;
 /// Number of spheres of a packing whose errors have the weight 1; that of others goes with the root of their number.
 const DEFAULT_SPHERES: f64 = 1000.0;
 
@@ -76,8 +73,14 @@ pub struct PathFit<'a> {
     pub contacts: Contacts,
 }
 
-impl PathFit<'_> {
-    /// All residuals, in a fixed order.
+impl Paths for PathFit<'_> {
+    /// Some packings rearrange suddenly.
+    const ROBUST: f64 = 0.2;
+
+    fn threads(&self) -> usize {
+        self.threads
+    }
+
     fn residuals(&self, x: &DVector<f64>) -> Vec<f64> {
         let law = Law { contacts: self.contacts, ..law(x) };
         let both = |k: usize| if k < 3 { 1.0 } else { std::f64::consts::SQRT_2 };
@@ -112,58 +115,6 @@ impl PathFit<'_> {
             }
         }
         residuals
-    }
-
-    /// Residuals at several parameters, on the fit's threads.
-    fn residuals_of(&self, all: &[DVector<f64>]) -> Vec<Vec<f64>> {
-        let each = all.len().div_ceil(self.threads.max(1)).max(1);
-        std::thread::scope(|scope| {
-            let some = |some: &'_ [DVector<f64>]| some.iter().map(|x| self.residuals(x)).collect::<Vec<_>>();
-            let handles: Vec<_> = all.chunks(each).map(|chunk| scope.spawn(move || some(chunk))).collect();
-            handles.into_iter().flat_map(|handle| handle.join().unwrap_or_default()).collect()
-        })
-    }
-}
-
-/// Weight of a residual's square, and its share of the sum: that of a large residual grows less than with its square.
-fn robust(residual: f64) -> [f64; 2] {
-    let ratio = residual / ROBUST;
-    let root = (1.0 + ratio * ratio).sqrt();
-    [1.0 / root, 2.0 * ROBUST * ROBUST * (root - 1.0)]
-}
-
-impl LeastSquares for PathFit<'_> {
-    fn mean_square(&self, x: &DVector<f64>) -> f64 {
-        let residuals = self.residuals(x);
-        residuals.iter().map(|&r| robust(r)[1]).sum::<f64>() / residuals.len().max(1) as f64
-    }
-
-    fn normal_equations(&self, x: &DVector<f64>) -> NormalEquations {
-        let steps: Vec<f64> = x.iter().map(|value| STEP * value.abs().max(0.1)).collect();
-        let moved = |(k, side): (usize, f64)| {
-            let mut x = x.clone();
-            x[k] += side * steps[k];
-            x
-        };
-        let sides = (0..PARAMETERS).flat_map(|k| [(k, 1.0), (k, -1.0)]).map(moved);
-        let at: Vec<DVector<f64>> = sides.chain([x.clone()]).collect();
-        let found = self.residuals_of(&at);
-        let here = &found[2 * PARAMETERS];
-        let mut matrix = DMatrix::zeros(PARAMETERS, PARAMETERS);
-        let mut gradient = DVector::zeros(PARAMETERS);
-        for (n, &residual) in here.iter().enumerate() {
-            let row: [f64; PARAMETERS] =
-                std::array::from_fn(|k| (found[2 * k][n] - found[2 * k + 1][n]) / (2.0 * steps[k]));
-            let [weight, _] = robust(residual);
-            for a in 0..PARAMETERS {
-                gradient[a] += weight * row[a] * residual;
-                for b in 0..=a {
-                    matrix[(a, b)] += weight * row[a] * row[b];
-                }
-            }
-        }
-        let count = here.len().max(1) as f64;
-        NormalEquations { matrix: matrix / count, gradient: gradient / count }
     }
 }
 
