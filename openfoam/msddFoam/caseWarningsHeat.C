@@ -74,7 +74,7 @@ void Foam::caseWarnings::readWalls()
         range T;
         if
         (
-            heatEquation::isGiven(wall)
+            heatConduction::isGiven(wall)
          && !isA<mappedPatchBase>(mesh_.boundaryMesh()[i])
         )
         {

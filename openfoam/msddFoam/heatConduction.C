@@ -14,187 +14,287 @@ License
     any later version. It comes without any warranty: see the file LICENSE.
 \*---------------------------------------------------------------------------*/
 
-#include "heatEquation.H"
+#include "heatConduction.H"
 #include "mappedPatchBase.H"
+#include "mixedFvPatchFields.H"
+#include "coupledPolyPatch.H"
+#include "wedgePolyPatch.H"
+#include "extrapolatedCalculatedFvPatchFields.H"
+#include "unitConversion.H"
 #include "fvcGrad.H"
 #include "fvmLaplacian.H"
+#include "gaussGrad.H"
+
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
+
+namespace Foam
+{
+
+//- Sine of the angle to an axis below which a face counts as aligned: mesh
+//- points are given with about ten digits
+static const scalar alignedSine = 1e-7;
+
+//- Non-orthogonality above which the user is warned, as by checkMesh [degrees]
+static const scalar largestAngle = 70;
+
+//- The component of K that is n.K.n at a face along an axis
+static inline direction across(const vector& Sf)
+{
+    return mag(Sf.y()) > mag(Sf.x()) ? symmTensor::YY : symmTensor::XX;
+}
+
+} // End namespace Foam
+
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::heatConduction::heatConduction
+(
+    volScalarField& T,
+    const granularProperties& properties,
+    const granularState& grains,
+    const bool alone,
+    const bool wallsReadK
+)
+:
+    T_(T),
+    mesh_(T.mesh()),
+    aligned_(alone && isAligned()),
+    crossed_(!grains.diagonal()),
+    wallsReadK_(wallsReadK),
+    coupled_(anyCoupled()),
+    factor_(properties.conductivityFactor()),
+    Kzz_(factor_*grains.model().conductivityZZ()),
+    spatial_(grains.model().isThreeDimensional()),
+    K_
+    (
+        IOobject("K", mesh_.time().timeName(), mesh_),
+        mesh_,
+        dimensionedSymmTensor
+        (
+            properties.thermalConductivity().dimensions(), Zero
+        ),
+        extrapolatedCalculatedFvPatchSymmTensorField::typeName
+    ),
+    slanted_(false)
+{
+    if (!aligned_)
+    {
+        mesh_.setFluxRequired(T.name());
+        findFeet();
+    }
+    set(grains.conductivity().primitiveField());
+}
+
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-void Foam::heatEquation::exchange(const granularState::conductivityColumns& K)
+bool Foam::heatConduction::isAligned() const
 {
-    // Exchanged once for all patches and not in a loop over patches: every
-    // process must take part equally often, however many neighbours it has
-    if (anyCoupled())
+    bool aligned = true;
+
+    const surfaceVectorField& Sf = mesh_.Sf();
+    const surfaceVectorField delta(mesh_.delta());
+    const auto check = [&](const vector& S, const vector& d)
     {
-        Kxx_.primitiveFieldRef() = K.xx;
-        Kyy_.primitiveFieldRef() = K.yy;
-        Kxx_.correctBoundaryConditions();
-        Kyy_.correctBoundaryConditions();
+        const vector n(S/mag(S));
+        const scalar axis = max(mag(n.x()), mag(n.y()));
+        aligned = aligned
+         && mag(n ^ d) < alignedSine*mag(d)
+         && 1 - sqr(axis) < sqr(alignedSine);
+    };
+    forAll(mesh_.owner(), facei)
+    {
+        check(Sf[facei], delta[facei]);
+    }
+    forAll(mesh_.boundary(), patchi)
+    {
+        const fvPatch& patch = mesh_.boundary()[patchi];
+        // No heat passes the sides of a wedge
+        if (isA<wedgePolyPatch>(patch.patch()))
+        {
+            continue;
+        }
+        // Components of K are not those of the other side if it is turned
+        aligned = aligned
+         && (
+                !isA<coupledPolyPatch>(patch.patch())
+             || refCast<const coupledPolyPatch>(patch.patch()).parallel()
+            );
+        const vectorField d(patch.delta());
+        forAll(patch, facei)
+        {
+            // The gradient at a wall is taken along its normal, so that the
+            // position of the cell's centre matters only for faces between
+            // cells
+            const vector& S = Sf.boundaryField()[patchi][facei];
+            check(S, patch.coupled() ? d[facei] : S);
+        }
+    }
+    return returnReduce(aligned, andOp<bool>());
+}
+
+
+bool Foam::heatConduction::anyCoupled() const
+{
+    for (const fvPatch& patch : mesh_.boundary())
+    {
+        if (patch.coupled())
+        {
+            return true;
+        }
+    }
+    return false;
+}
+
+
+void Foam::heatConduction::findFeet()
+{
+    feet_.resize(mesh_.boundary().size());
+    forAll(feet_, patchi)
+    {
+        const fvPatch& patch = mesh_.boundary()[patchi];
+        // At a wall to another region both sides have to see the same heat,
+        // and its condition knows nothing of the feet
+        if
+        (
+            patch.coupled()
+         || isA<mappedPatchBase>(patch.patch())
+         || isA<wedgePolyPatch>(patch.patch())
+        )
+        {
+            continue;
+        }
+        const vectorField n(patch.nf());
+        const vectorField d(patch.Cf() - patch.Cn());
+        feet_[patchi] = d - n*(n & d);
+        slanted_ = slanted_ || max(mag(feet_[patchi])/mag(d)) > alignedSine;
+    }
+    reduce(slanted_, orOp<bool>());
+}
+
+
+void Foam::heatConduction::reportAngle() const
+{
+    scalar smallest = 1;
+    const surfaceVectorField& Sf = mesh_.Sf();
+    const surfaceVectorField delta(mesh_.delta());
+    forAll(mesh_.owner(), facei)
+    {
+        const vector& S = Sf[facei];
+        const vector& d = delta[facei];
+        smallest = min(smallest, (S & d)/(mag(S)*mag(d)));
+    }
+    reduce(smallest, minOp<scalar>());
+    const scalar angle =
+        radToDeg(std::acos(max(scalar(-1), min(scalar(1), smallest))));
+
+    Info<< "Non-orthogonality: at most " << angle << " degrees" << nl << endl;
+    if (angle > largestAngle)
+    {
+        WarningInFunction
+            << "Non-orthogonality of " << angle << " degrees, at most "
+            << largestAngle << " advised: expect per cent of error in T, less"
+            << " with more cells and nNonOrthogonalCorrectors" << endl;
     }
 }
 
 
-void Foam::heatEquation::addAligned
-(
-    const granularState::conductivityColumns& K
-)
+void Foam::heatConduction::addAligned(fvScalarMatrix& equation) const
 {
     const labelUList& owner = mesh_.owner();
     const labelUList& neighbour = mesh_.neighbour();
     const scalarField& weights = mesh_.weights();
     const scalarField& deltaCoeffs = mesh_.deltaCoeffs();
-    scalarField& upper = TEqn_.upper();
-    scalarField& diag = TEqn_.diag();
+    const vectorField& Sf = mesh_.Sf();
+    const scalarField& magSf = mesh_.magSf();
+    const symmTensorField& K = K_.primitiveField();
+    scalarField& upper = equation.upper();
+    scalarField& diag = equation.diag();
 
     forAll(owner, facei)
     {
         const label P = owner[facei], N = neighbour[facei];
-        const scalar w = weights[facei];
-        const scalar x = w*(K.xx[P] - K.xx[N]) + K.xx[N];
-        const scalar y = w*(K.yy[P] - K.yy[N]) + K.yy[N];
-        const scalar flux =
-            deltaCoeffs[facei]*(areaX_[facei]*x + areaY_[facei]*y);
+        const direction k = across(Sf[facei]);
+        const scalar onFace = weights[facei]*(K[P][k] - K[N][k]) + K[N][k];
+        const scalar flux = deltaCoeffs[facei]*(magSf[facei]*onFace);
 
         upper[facei] = -flux;
         diag[P] += flux;
         diag[N] += flux;
     }
-
-    exchange(K);
-
     forAll(mesh_.boundary(), patchi)
     {
         const fvPatch& patch = mesh_.boundary()[patchi];
         const fvPatchScalarField& pT = T_.boundaryField()[patchi];
-        const scalarField& x = patchAreaX_[patchi];
-        const scalarField& y = patchAreaY_[patchi];
         const labelUList& cells = patch.faceCells();
-        scalarField& internal = TEqn_.internalCoeffs()[patchi];
-        scalarField& boundary = TEqn_.boundaryCoeffs()[patchi];
+        scalarField& internal = equation.internalCoeffs()[patchi];
+        scalarField& boundary = equation.boundaryCoeffs()[patchi];
+        symmTensorField other;
 
         if (pT.coupled())
         {
-            const scalarField otherX
-            (
-                Kxx_.boundaryField()[patchi].patchNeighbourField()
-            );
-            const scalarField otherY
-            (
-                Kyy_.boundaryField()[patchi].patchNeighbourField()
-            );
-            const scalarField& w = patch.weights();
             const scalarField& delta =
                 mesh_.deltaCoeffs().boundaryField()[patchi];
-
+            other = K_.boundaryField()[patchi].patchNeighbourField();
             internal = pT.gradientInternalCoeffs(delta);
             boundary = pT.gradientBoundaryCoeffs(delta);
-            forAll(cells, facei)
-            {
-                const label P = cells[facei];
-                const scalar gamma =
-                    x[facei]
-                   *(w[facei]*(K.xx[P] - otherX[facei]) + otherX[facei])
-                  + y[facei]
-                   *(w[facei]*(K.yy[P] - otherY[facei]) + otherY[facei]);
-                internal[facei] *= -gamma;
-                boundary[facei] *= gamma;
-            }
         }
         else
         {
             internal = pT.gradientInternalCoeffs();
             boundary = pT.gradientBoundaryCoeffs();
-            forAll(cells, facei)
-            {
-                const label P = cells[facei];
-                const scalar gamma = x[facei]*K.xx[P] + y[facei]*K.yy[P];
-                internal[facei] *= -gamma;
-                boundary[facei] *= gamma;
-            }
-        }
-    }
-}
-
-
-void Foam::heatEquation::findGradient()
-{
-    const labelUList& owner = mesh_.owner();
-    const labelUList& neighbour = mesh_.neighbour();
-    const scalarField& weights = mesh_.weights();
-    const vectorField& Sf = mesh_.Sf();
-    const scalarField& V = mesh_.V();
-    scalarField& x = gradX_.primitiveFieldRef();
-    scalarField& y = gradY_.primitiveFieldRef();
-    x = 0;
-    y = 0;
-
-    forAll(owner, facei)
-    {
-        const label P = owner[facei], N = neighbour[facei];
-        const scalar T = weights[facei]*(T_[P] - T_[N]) + T_[N];
-        x[P] += Sf[facei].x()*T;
-        y[P] += Sf[facei].y()*T;
-        x[N] -= Sf[facei].x()*T;
-        y[N] -= Sf[facei].y()*T;
-    }
-    forAll(mesh_.boundary(), patchi)
-    {
-        const fvPatch& patch = mesh_.boundary()[patchi];
-        const fvPatchScalarField& pT = T_.boundaryField()[patchi];
-        const vectorField& S = mesh_.Sf().boundaryField()[patchi];
-        const labelUList& cells = patch.faceCells();
-        scalarField T(pT);
-        if (pT.coupled())
-        {
-            const scalarField& w = patch.weights();
-            T = w*pT.patchInternalField() + (1 - w)*pT.patchNeighbourField();
         }
         forAll(cells, facei)
         {
-            x[cells[facei]] += S[facei].x()*T[facei];
-            y[cells[facei]] += S[facei].y()*T[facei];
+            const direction k = across(patch.Sf()[facei]);
+            scalar onFace = K[cells[facei]][k];
+            if (other.size())
+            {
+                const scalar N = other[facei][k];
+                onFace = patch.weights()[facei]*(onFace - N) + N;
+            }
+            const scalar gamma = patch.magSf()[facei]*onFace;
+            internal[facei] *= -gamma;
+            boundary[facei] *= gamma;
         }
-    }
-    x /= V;
-    y /= V;
-    if (anyCoupled())
-    {
-        gradX_.correctBoundaryConditions();
-        gradY_.correctBoundaryConditions();
     }
 }
 
 
-void Foam::heatEquation::addCrossed
+void Foam::heatConduction::addCrossed
 (
-    const granularState::conductivityColumns& K
-)
+    fvScalarMatrix& equation,
+    List<scalarField>& faceHeat
+) const
 {
-    // Gradients read T at walls and in cells of other processes, where it is
-    // still the one before the last solution
-    T_.correctBoundaryConditions();
-    findGradient();
-    Kxy_.primitiveFieldRef() = K.xy;
-    if (anyCoupled())
-    {
-        Kxy_.correctBoundaryConditions();
-    }
-
+    // Whatever gradSchemes says: this one needs no correction on such a mesh
+    const tmp<volVectorField> grad
+    (
+        fv::gaussGrad<scalar>(mesh_).calcGrad(T_, "gradient")
+    );
+    const vectorField& g = grad().primitiveField();
+    const symmTensorField& K = K_.primitiveField();
     const labelUList& owner = mesh_.owner();
     const labelUList& neighbour = mesh_.neighbour();
     const scalarField& weights = mesh_.weights();
     const vectorField& Sf = mesh_.Sf();
-    scalarField& source = TEqn_.source();
+    scalarField& source = equation.source();
+    const auto crossed = [](const scalar Kxy, const vector& S, const vector& g)
+    {
+        return Kxy*(S.x()*g.y() + S.y()*g.x());
+    };
 
     forAll(owner, facei)
     {
         const label P = owner[facei], N = neighbour[facei];
         const scalar w = weights[facei];
-        const scalar Kxy = w*(K.xy[P] - K.xy[N]) + K.xy[N];
-        const scalar x = w*(gradX_[P] - gradX_[N]) + gradX_[N];
-        const scalar y = w*(gradY_[P] - gradY_[N]) + gradY_[N];
-        const scalar heat = Kxy*(Sf[facei].x()*y + Sf[facei].y()*x);
+        const scalar heat = crossed
+        (
+            w*(K[P].xy() - K[N].xy()) + K[N].xy(),
+            Sf[facei],
+            w*(g[P] - g[N]) + g[N]
+        );
         source[P] += heat;
         source[N] -= heat;
     }
@@ -208,12 +308,11 @@ void Foam::heatEquation::addCrossed
         {
             continue;
         }
-        const vectorField& S = mesh_.Sf().boundaryField()[patchi];
         const labelUList& cells = patch.faceCells();
-        const auto onFaces = [&](const volScalarField& field)
+        const auto onFaces = [&](const auto& field)
         {
-            const fvPatchScalarField& values = field.boundaryField()[patchi];
-            tmp<scalarField> inner(values.patchInternalField());
+            const auto& values = field.boundaryField()[patchi];
+            auto inner(values.patchInternalField());
             if (!coupled)
             {
                 return inner;
@@ -221,23 +320,23 @@ void Foam::heatEquation::addCrossed
             const scalarField& w = patch.weights();
             return w*inner + (1 - w)*values.patchNeighbourField();
         };
-        const scalarField Kxy(onFaces(Kxy_));
-        const scalarField x(onFaces(gradX_)), y(onFaces(gradY_));
+        const symmTensorField onK(onFaces(K_));
+        const vectorField onG(onFaces(grad()));
         forAll(cells, facei)
         {
             const scalar heat =
-                Kxy[facei]*(S[facei].x()*y[facei] + S[facei].y()*x[facei]);
+                crossed(onK[facei].xy(), patch.Sf()[facei], onG[facei]);
             source[cells[facei]] += heat;
             if (!coupled)
             {
-                faceHeat_[patchi][facei] += heat;
+                faceHeat[patchi][facei] += heat;
             }
         }
     }
 }
 
 
-void Foam::heatEquation::insulateWalls()
+void Foam::heatConduction::insulateWalls()
 {
     forAll(mesh_.boundary(), patchi)
     {
@@ -248,7 +347,7 @@ void Foam::heatEquation::insulateWalls()
             continue;
         }
         const vectorField n(patch.nf());
-        fvPatchSymmTensorField& Kp = K_().boundaryFieldRef()[patchi];
+        fvPatchSymmTensorField& Kp = K_.boundaryFieldRef()[patchi];
         forAll(Kp, facei)
         {
             // Without the part that leads heat through the wall when T changes
@@ -261,58 +360,39 @@ void Foam::heatEquation::insulateWalls()
 }
 
 
-void Foam::heatEquation::setTensor(const granularState::conductivityColumns& K)
+void Foam::heatConduction::addTensor
+(
+    fvScalarMatrix& equation,
+    List<scalarField>& faceHeat
+) const
 {
-    symmTensorField& cells = K_().primitiveFieldRef();
-    forAll(cells, celli)
-    {
-        cells[celli].xx() = K.xx[celli];
-        cells[celli].yy() = K.yy[celli];
-    }
-    forAll(K.xy, celli)
-    {
-        cells[celli].xy() = K.xy[celli];
-    }
-    forAll(K.zz, celli)
-    {
-        cells[celli].zz() = K.zz[celli];
-        cells[celli].xz() = K.xz[celli];
-        cells[celli].yz() = K.yz[celli];
-    }
-    K_().correctBoundaryConditions();
-    insulateWalls();
-}
+    fvScalarMatrix conduction(fvm::laplacian(K_, T_, "laplacian(K,T)"));
 
-
-void Foam::heatEquation::addTensor()
-{
-    // The explicit gradients below read T at walls and in cells of other
-    // processes, where it is still the one before the last solution
-    T_.correctBoundaryConditions();
-
-    fvScalarMatrix conduction(fvm::laplacian(K_(), T_, "laplacian(K,T)"));
-
-    TEqn_.upper() = -conduction.upper();
-    TEqn_.diag() -= conduction.diag();
-    TEqn_.source() -= conduction.source();
+    equation.upper() = -conduction.upper();
+    equation.diag() -= conduction.diag();
+    equation.source() -= conduction.source();
     forAll(mesh_.boundary(), patchi)
     {
-        TEqn_.internalCoeffs()[patchi] = -conduction.internalCoeffs()[patchi];
-        TEqn_.boundaryCoeffs()[patchi] = -conduction.boundaryCoeffs()[patchi];
+        equation.internalCoeffs()[patchi] = -conduction.internalCoeffs()[patchi];
+        equation.boundaryCoeffs()[patchi] = -conduction.boundaryCoeffs()[patchi];
         if (!mesh_.boundary()[patchi].coupled())
         {
-            faceHeat_[patchi] =
+            faceHeat[patchi] =
                 conduction.faceFluxCorrectionPtr()->boundaryField()[patchi];
         }
     }
     if (slanted_)
     {
-        addWallCorrection();
+        addWallCorrection(equation, faceHeat);
     }
 }
 
 
-void Foam::heatEquation::addWallCorrection()
+void Foam::heatConduction::addWallCorrection
+(
+    fvScalarMatrix& equation,
+    List<scalarField>& faceHeat
+) const
 {
     const volVectorField gradT(fvc::grad(T_));
 
@@ -324,16 +404,91 @@ void Foam::heatEquation::addWallCorrection()
         }
         const fvPatch& patch = mesh_.boundary()[patchi];
         const labelUList& cells = patch.faceCells();
-        const scalarField& internal = TEqn_.internalCoeffs()[patchi];
+        const scalarField& internal = equation.internalCoeffs()[patchi];
         forAll(cells, facei)
         {
             // internal = - n.K.n |S| d(snGrad)/dT
             const scalar heat =
                -internal[facei]
                *(feet_[patchi][facei] & gradT[cells[facei]]);
-            TEqn_.source()[cells[facei]] += heat;
-            faceHeat_[patchi][facei] += heat;
+            equation.source()[cells[facei]] += heat;
+            faceHeat[patchi][facei] += heat;
         }
+    }
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+bool Foam::heatConduction::isGiven(const fvPatchScalarField& wall)
+{
+    return wall.fixesValue() && !isA<mixedFvPatchScalarField>(wall);
+}
+
+
+void Foam::heatConduction::report() const
+{
+    Info<< "Conduction: "
+        << (!aligned_ ? "tensor laplacian"
+          : crossed_ ? "n.K.n on the faces, Kxy explicitly"
+          : "n.K.n on the faces (exact here)")
+        << nl << endl;
+    if (!aligned_)
+    {
+        reportAngle();
+    }
+}
+
+
+void Foam::heatConduction::set(const symmTensorField& K)
+{
+    symmTensorField& cells = K_.primitiveFieldRef();
+    cells = K;
+    if (factor_ != 1)
+    {
+        cells *= factor_;
+    }
+    if (!spatial_ && Kzz_ != 0)
+    {
+        for (symmTensor& cell : cells)
+        {
+            cell.zz() = Kzz_;
+        }
+    }
+    // Exchanged once for all patches and not in a loop over patches: every
+    // process must take part equally often, however many neighbours it has
+    if (!aligned_ || wallsReadK_ || coupled_)
+    {
+        K_.correctBoundaryConditions();
+    }
+    if (!aligned_ || wallsReadK_)
+    {
+        insulateWalls();
+    }
+}
+
+
+void Foam::heatConduction::addTo
+(
+    fvScalarMatrix& equation,
+    List<scalarField>& faceHeat
+) const
+{
+    if (isExplicit())
+    {
+        // Gradients read T at walls and in cells of other processes, where it
+        // is still the one before the last solution
+        T_.correctBoundaryConditions();
+    }
+    if (!aligned_)
+    {
+        addTensor(equation, faceHeat);
+        return;
+    }
+    addAligned(equation);
+    if (crossed_)
+    {
+        addCrossed(equation, faceHeat);
     }
 }
 

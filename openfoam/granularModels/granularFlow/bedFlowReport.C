@@ -138,24 +138,6 @@ Foam::scalar Foam::granularFlows::bedFlow::difference() const
 }
 
 
-Foam::symmTensor Foam::granularFlows::bedFlow::conductivity
-(
-    const label celli
-) const
-{
-    const granularState::conductivityColumns& K = grains_.conductivityOfCells();
-    const auto part = [celli](const scalarField& column)
-    {
-        return column.empty() ? 0 : column[celli];
-    };
-    return symmTensor
-    (
-        K.xx[celli], part(K.xy), part(K.xz), K.yy[celli], part(K.yz),
-        part(K.zz)
-    );
-}
-
-
 Foam::string Foam::granularFlows::bedFlow::exchangeSentence() const
 {
     if (inflow_ == 0 || constantExchange_)
@@ -165,13 +147,14 @@ Foam::string Foam::granularFlows::bedFlow::exchangeSentence() const
     // Share of the exchange in what spreads a front
     scalar share = 0;
     const scalarField& V = mesh_.V();
+    const symmTensorField& K = grains_.conductivity().primitiveField();
     forAll(V, celli)
     {
         const scalar carried = Gc(celli);
         const scalar spread = sqr(carried)/exchange(celli);
         const vector e(massFlux_[celli]/max(mag(massFlux_[celli]), VSMALL));
         const scalar others =
-            along_*carried*diameter(celli) + (e & (conductivity(celli) & e));
+            along_*carried*diameter(celli) + (e & (K[celli] & e));
         share += V[celli]*spread/max(spread + others, VSMALL);
     }
     share =

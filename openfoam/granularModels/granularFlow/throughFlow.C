@@ -231,7 +231,7 @@ Foam::scalar Foam::granularFlows::through::rayleigh() const
         const scalar z = C[celli] & up, T = gasT_[celli];
         const FixedList<scalar, 6> cell
         ({
-            1, z, T, z*z, z*T, up & (conductivity(celli) & up)
+            1, z, T, z*z, z*T, up & (grains_.conductivity()[celli] & up)
         });
         forAll(sum, i)
         {

@@ -739,11 +739,8 @@ void Foam::granularMechanicsModels::equilibrium::findMetric()
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
-const Foam::granularState::conductivityColumns&
-Foam::granularMechanicsModels::equilibrium::pulledBack
-(
-    const granularState::conductivityColumns& K
-)
+const Foam::symmTensorField&
+Foam::granularMechanicsModels::equilibrium::pulledBack(const symmTensorField& K)
 {
     if (law_->elastic())
     {
@@ -754,32 +751,24 @@ Foam::granularMechanicsModels::equilibrium::pulledBack
     {
         // J F^-1.K.F^-T
         const tensor& m = inverse_[celli];
-        const symmTensor here
+        const tensor back(m & K[celli] & m.T());
+        pulledBack_[celli] = symmTensor
         (
-            K.xx[celli], K.xy[celli], K.xz[celli],
-            K.yy[celli], K.yz[celli], K.zz[celli]
+            back.xx(), back.xy(), back.xz(), back.yy(), back.yz(), back.zz()
         );
-        const tensor back(m & here & m.T());
-        pulledBack_.xx[celli] = back.xx();
-        pulledBack_.yy[celli] = back.yy();
-        pulledBack_.zz[celli] = back.zz();
-        pulledBack_.xy[celli] = back.xy();
-        pulledBack_.xz[celli] = back.xz();
-        pulledBack_.yz[celli] = back.yz();
     }
     forAll(metric_, celli)
     {
         // J F^-1.K.F^-T, in which the adjugate of F is J F^-1
         const FixedList<scalar, 4>& m = metric_[celli];
-        const scalar xx = K.xx[celli], yy = K.yy[celli], xy = K.xy[celli];
-        pulledBack_.xx[celli] =
-            sqr(m[3])*xx - 2*m[1]*m[3]*xy + sqr(m[1])*yy;
-        pulledBack_.yy[celli] =
-            sqr(m[2])*xx - 2*m[0]*m[2]*xy + sqr(m[0])*yy;
-        pulledBack_.xy[celli] =
-            (m[0]*m[3] + m[1]*m[2])*xy - m[2]*m[3]*xx - m[0]*m[1]*yy;
+        const scalar xx = K[celli].xx(), yy = K[celli].yy(), xy = K[celli].xy();
+        symmTensor& back = pulledBack_[celli];
+        back.xx() = sqr(m[3])*xx - 2*m[1]*m[3]*xy + sqr(m[1])*yy;
+        back.yy() = sqr(m[2])*xx - 2*m[0]*m[2]*xy + sqr(m[0])*yy;
+        back.xy() = (m[0]*m[3] + m[1]*m[2])*xy - m[2]*m[3]*xx - m[0]*m[1]*yy;
     }
     return pulledBack_;
 }
+
 
 // ************************************************************************* //

@@ -178,6 +178,7 @@ Foam::string Foam::granularMechanicsModels::equilibrium::failure() const
 void Foam::granularMechanicsModels::equilibrium::refuse()
 {
     const string what(failure());
+    grains_.commit();
     grains_.refresh();
     const_cast<Time&>(mesh_.time()).writeNow();
     FatalErrorInFunction

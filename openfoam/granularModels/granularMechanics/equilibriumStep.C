@@ -532,7 +532,6 @@ bool Foam::granularMechanicsModels::equilibrium::advance(const label parts)
             2*enoughGiving*gMax(mag(give_))
         );
     }
-    granularState::snapshot before;
     slide_ = walls_.slide(lastTime_, time);
     scalarField shellSlide;
     if (walls_.shellsSlide())
@@ -556,7 +555,6 @@ bool Foam::granularMechanicsModels::equilibrium::advance(const label parts)
     }
     if (parts > 1)
     {
-        before = grains_.saveState();
         const scalarField slide(slide_);
         slide_ = 0;
         imbalance(nodeField(u_.size(), Zero), false);
@@ -581,7 +579,7 @@ bool Foam::granularMechanicsModels::equilibrium::advance(const label parts)
             placed_ = false;
             if (parts > 1)
             {
-                grains_.restore(before);
+                grains_.dropTrials();
                 u_ = u;
                 traction_ = traction;
                 give_ = given;

@@ -370,7 +370,7 @@ Foam::scalar Foam::grainLaw::shear() const
 
 void Foam::grainLaw::present()
 {
-    found_ = grains_.presentStress();
+    found_ = grains_.endStress();
     take();
 }
 
@@ -527,7 +527,7 @@ Foam::scalar Foam::grainLaw::residual() const
 
 Foam::scalar Foam::sphereLaw::pressure() const
 {
-    const granularState::stressColumns s(grains_.presentStress());
+    const granularState::stressColumns s(grains_.endStress());
     return mean((s[0] + s[1] + s[2])/(-3));
 }
 

@@ -56,12 +56,9 @@ void Foam::granularState::select(const scalarField& strain)
 }
 
 
-void Foam::granularState::gather
-(
-    const scalarField& strain,
-    const scalarField& total
-)
+void Foam::granularState::gather(const scalarField& strain)
 {
+    const scalarField& total = thermalStrain_.primitiveField();
     forAll(state_, i)
     {
         const scalarField& from = state_[i].primitiveField();
@@ -76,45 +73,6 @@ void Foam::granularState::gather
         strain_[row] = strain[rows_[row]];
         total_[row] = total[rows_[row]];
         askedTemperature_[row] = temperature_[rows_[row]];
-    }
-}
-
-
-void Foam::granularState::keepOrigin()
-{
-    forAll(state_, i)
-    {
-        origin_.values[i] = state_[i].primitiveField();
-    }
-    originStrain_ = 0;
-    forAll(rows_, row)
-    {
-        originStrain_[rows_[row]] = strain_[row];
-    }
-}
-
-
-void Foam::granularState::answer
-(
-    granularModel::query& query,
-    conductivityColumns& K,
-    stressColumns& sigma
-) const
-{
-    query.conductivityXX = K.xx.data();
-    query.conductivityYY = K.yy.data();
-    query.conductivityXY = K.xy.empty() ? nullptr : K.xy.data();
-    query.stressXX = sigma[0].data();
-    query.stressYY = sigma[1].data();
-    query.stressXY = K.xy.empty() ? nullptr : sigma[shearColumn()].data();
-    if (model_->isThreeDimensional())
-    {
-        query.conductivityZZ = K.zz.data();
-        query.conductivityXZ = K.xz.data();
-        query.conductivityYZ = K.yz.data();
-        query.stressZZ = sigma[2].data();
-        query.stressXZ = sigma[4].data();
-        query.stressYZ = sigma[5].data();
     }
 }
 
@@ -135,7 +93,7 @@ Foam::label Foam::granularState::ask
     query.nextState = to.pointers.cdata();
     query.strain = strain.cdata();
     query.totalStrain = total_.cdata();
-    answer(query, askedK_, askedSigma_);
+    asked_.answer(query, model_());
     query.temperature =
         model_->isThreeDimensional() ? askedTemperature_.cdata() : nullptr;
     query.outside = wantOutside ? outside_.pointers.cdata() : nullptr;
@@ -220,7 +178,7 @@ Foam::scalar Foam::granularState::extrapolate()
     {
         const scalarField& full = full_.values[i];
         const scalarField& half = half_.values[i];
-        scalarField& after = after_.values[i];
+        scalarField& after = asked_.state.values[i];
         scalar largest = smallestScale, difference = 0;
         forAll(rows_, row)
         {
@@ -234,34 +192,22 @@ Foam::scalar Foam::granularState::extrapolate()
 
     // A query with zero strain brings the extrapolated state back into its
     // admissible range and gives the conductivity and stress that belong to it
-    ask(after_, after_, zero_, false);
+    ask(asked_.state, asked_.state, zero_, false);
     return returnReduce(error, maxOp<scalar>());
 }
 
 
-void Foam::granularState::scatterConductivity(conductivityColumns& K) const
+Foam::granularState::stressColumns Foam::granularState::askedStress() const
 {
-    forAll(rows_, row)
-    {
-        K.xx[rows_[row]] = askedK_.xx[row];
-        K.yy[rows_[row]] = askedK_.yy[row];
-    }
-    if (K.xy.size())
+    stressColumns result(sigma_);
+    forAll(result, i)
     {
         forAll(rows_, row)
         {
-            K.xy[rows_[row]] = askedK_.xy[row];
+            result[i][rows_[row]] = asked_.stress[i][row];
         }
     }
-    if (K.zz.size())
-    {
-        forAll(rows_, row)
-        {
-            K.zz[rows_[row]] = askedK_.zz[row];
-            K.xz[rows_[row]] = askedK_.xz[row];
-            K.yz[rows_[row]] = askedK_.yz[row];
-        }
-    }
+    return result;
 }
 
 
@@ -272,72 +218,39 @@ void Foam::granularState::strain(const scalarField& from, const scalarField& to)
     // The factor beta = 1/(1 + alpha (T^n - T^0)) makes the strain relative to
     // the radius at step n, as models expect it
     const scalar alpha = properties_.thermalExpansion().value();
-    const scalarField& total = thermalStrain_.primitiveField();
-    const scalarField& waiting = thermalStrainIncrement_.primitiveField();
     const scalarField& start = initialTemperature_.primitiveField();
+    scalarField& increment = thermalStrainIncrement_.primitiveFieldRef();
+    scalarField& total = thermalStrain_.primitiveFieldRef();
     temperature_ = to;
 
     forAll(to, celli)
     {
-        const scalar e = alpha*(to[celli] - from[celli])/(1 + total[celli]);
-        nextIncrement_[celli] =
-            waiting[celli] == 0
-          ? e
-          : (1 + waiting[celli])*(1 + e) - 1;
-        nextStrain_[celli] = alpha*(to[celli] - start[celli]);
+        const scalar e =
+            alpha*(to[celli] - from[celli])/(1 + startStrain_[celli]);
+        const scalar waiting = startIncrement_[celli];
+        increment[celli] = waiting == 0 ? e : (1 + waiting)*(1 + e) - 1;
+        total[celli] = alpha*(to[celli] - start[celli]);
     }
 }
 
 
-void Foam::granularState::commitStrain()
+bool Foam::granularState::propose(const bool secondOrder, scalar& error)
 {
-    thermalStrainIncrement_.primitiveFieldRef() = nextIncrement_;
-    thermalStrain_.primitiveFieldRef() = nextStrain_;
-}
-
-
-void Foam::granularState::markIncrement()
-{
-    heldIncrement_ = thermalStrainIncrement_.primitiveField();
-    heldStrain_ = thermalStrain_.primitiveField();
-}
-
-
-void Foam::granularState::restartIncrement
-(
-    const scalarField& from,
-    const scalarField& to
-)
-{
-    thermalStrainIncrement_.primitiveFieldRef() = heldIncrement_;
-    thermalStrain_.primitiveFieldRef() = heldStrain_;
-    strain(from, to);
-    commitStrain();
-}
-
-
-bool Foam::granularState::propose
-(
-    const bool proposed,
-    const bool secondOrder,
-    scalar& error
-)
-{
-    const scalarField& strain =
-        proposed
-      ? nextIncrement_
-      : static_cast<const scalarField&>
-        (
-            thermalStrainIncrement_.primitiveField()
-        );
-    const scalarField& total =
-        proposed
-      ? nextStrain_
-      : static_cast<const scalarField&>(thermalStrain_.primitiveField());
+    const scalarField& strain = thermalStrainIncrement_.primitiveField();
 
     error = 0;
+    moved_ = false;
+    proposed_ = true;
     select(strain);
-    gather(strain, total);
+    gather(strain);
+    if (deforms_)
+    {
+        stepStrain_ = 0;
+        forAll(rows_, row)
+        {
+            stepStrain_[rows_[row]] = strain_[row];
+        }
+    }
 
     const bool twice = secondOrder && !model_->exactIncrements();
     if (twice)
@@ -345,7 +258,7 @@ bool Foam::granularState::propose
         full_.setSize(state_.size(), mesh_.nCells());
         half_.setSize(state_.size(), mesh_.nCells());
     }
-    columns& to = twice ? full_ : after_;
+    columns& to = twice ? full_ : asked_.state;
     const label outside = ask(before_, to, strain_, false);
     const string when("At time " + mesh_.time().timeName());
 
@@ -364,133 +277,80 @@ bool Foam::granularState::propose
 void Foam::granularState::commit()
 {
     queries_ += returnReduce(rows_.size(), sumOp<label>()) > 0;
-    asked_ += rows_.size();
+    rowsAsked_ += rows_.size();
     cellSteps_ += mesh_.nCells();
     clamped_ += clampedNow_;
 
-    if (deforms_)
-    {
-        keepOrigin();
-    }
-    forAll(state_, i)
-    {
-        const scalarField& from = after_.values[i];
-        scalarField& to = state_[i].primitiveFieldRef();
-        forAll(rows_, row)
-        {
-            to[rows_[row]] = from[row];
-        }
-    }
-    scatterConductivity(K_);
-
+    symmTensorField& K = conductivity_.primitiveFieldRef();
     scalarField& waiting = thermalStrainIncrement_.primitiveFieldRef();
-    forAll(rows_, row)
+    if (moved_)
     {
-        const label celli = rows_[row];
-        // Models without shear leave its column as it is, zero
-        forAll(sigma_, i)
+        forAll(state_, i)
         {
-            sigma_[i][celli] = askedSigma_[i][row];
+            state_[i].primitiveFieldRef() = accepted_.state.values[i];
         }
-        lastStrain_[celli] = strain_[row];
-        waiting[celli] = 0;
-    }
-    setWallResistance();
-}
-
-
-Foam::granularState::snapshot Foam::granularState::saveState() const
-{
-    snapshot now;
-    now.state.resize(state_.size());
-    forAll(state_, i)
-    {
-        now.state[i] = state_[i].primitiveField();
-    }
-    now.K = K_;
-    now.stress = sigma_;
-    now.increment = thermalStrainIncrement_.primitiveField();
-    now.strain = thermalStrain_.primitiveField();
-    now.lastStrain = lastStrain_;
-    now.origin = origin_.values;
-    now.originStrain = originStrain_;
-    if (wallResistance_.valid())
-    {
-        const auto& patches = wallResistance_().boundaryField();
-        now.walls.resize(patches.size());
-        forAll(patches, patchi)
+        sigma_ = accepted_.stress;
+        forAll(K, celli)
         {
-            now.walls[patchi] = patches[patchi];
+            K[celli] = accepted_.K(celli);
         }
     }
-    now.queries = queries_;
-    now.asked = asked_;
-    now.cellSteps = cellSteps_;
-    now.clamped = clamped_;
-    return now;
-}
-
-
-void Foam::granularState::restore(const snapshot& before)
-{
-    forAll(state_, i)
+    else
     {
-        state_[i].primitiveFieldRef() = before.state[i];
-    }
-    K_ = before.K;
-    sigma_ = before.stress;
-    thermalStrainIncrement_.primitiveFieldRef() = before.increment;
-    thermalStrain_.primitiveFieldRef() = before.strain;
-    lastStrain_ = before.lastStrain;
-    forAll(before.origin, i)
-    {
-        origin_.values[i] = before.origin[i];
-    }
-    originStrain_ = before.originStrain;
-    forAll(before.walls, patchi)
-    {
-        wallResistance_().boundaryFieldRef()[patchi] == before.walls[patchi];
-    }
-    queries_ = before.queries;
-    asked_ = before.asked;
-    cellSteps_ = before.cellSteps;
-    clamped_ = before.clamped;
-}
-
-
-const Foam::granularState::conductivityColumns&
-Foam::granularState::trialConductivity()
-{
-    trialK_.xx = K_.xx;
-    trialK_.yy = K_.yy;
-    trialK_.xy = K_.xy;
-    trialK_.zz = K_.zz;
-    trialK_.xz = K_.xz;
-    trialK_.yz = K_.yz;
-
-    select(nextIncrement_);
-    gather(nextIncrement_, nextStrain_);
-    ask(before_, after_, strain_, true);
-    scatterConductivity(trialK_);
-
-    if (wallResistance_.valid())
-    {
-        // That of the trial, from its conductivity and stress
-        const conductivityColumns K(K_);
-        const stressColumns sigma(sigma_);
-        K_ = trialK_;
-        forAll(sigma_, i)
+        forAll(state_, i)
         {
+            const scalarField& from = asked_.state.values[i];
+            scalarField& to = state_[i].primitiveFieldRef();
             forAll(rows_, row)
             {
-                sigma_[i][rows_[row]] = askedSigma_[i][row];
+                to[rows_[row]] = from[row];
             }
         }
-        setWallResistance();
-        K_ = K;
-        sigma_ = sigma;
+        forAll(rows_, row)
+        {
+            K[rows_[row]] = asked_.K(row);
+            // Models without shear leave its column as it is, zero
+            forAll(sigma_, i)
+            {
+                sigma_[i][rows_[row]] = asked_.stress[i][row];
+            }
+        }
     }
-    return trialK_;
+    forAll(rows_, row)
+    {
+        lastStrain_[rows_[row]] = strain_[row];
+        waiting[rows_[row]] = 0;
+    }
+    startIncrement_ = waiting;
+    startStrain_ = thermalStrain_.primitiveField();
+    proposed_ = moved_ = false;
+    setWallResistance(K, sigma_);
+}
+
+
+void Foam::granularState::reject(const scalarField& T)
+{
+    proposed_ = moved_ = false;
+    temperature_ = T;
+    setWallResistance(conductivity_.primitiveField(), sigma_);
+}
+
+
+void Foam::granularState::findConductivity(symmTensorField& K)
+{
+    const scalarField& strain = thermalStrainIncrement_.primitiveField();
+    select(strain);
+    gather(strain);
+    ask(before_, asked_.state, strain_, true);
+    K = conductivity_.primitiveField();
+    forAll(rows_, row)
+    {
+        K[rows_[row]] = asked_.K(row);
+    }
+    if (wallResistance_.valid())
+    {
+        setWallResistance(K, askedStress());
+    }
 }
 
 
@@ -500,7 +360,8 @@ bool Foam::granularState::diagonal() const
     return model_->diagonal()
      || (
             properties_.getOrDefault<word>("mechanics", "none") == "none"
-         && gSum(mag(K_.xy)) + gSum(mag(sigma_[shearColumn()])) == 0
+         && gSum(mag(conductivity_.primitiveField().component(symmTensor::XY)))
+          + gSum(mag(sigma_[model_->isThreeDimensional() ? 3 : 2])) == 0
         );
 }
 
@@ -523,7 +384,7 @@ void Foam::granularState::extrapolateTemperature(scalarField& T) const
 
 int64_t Foam::granularState::asked() const
 {
-    return returnReduce(asked_, sumOp<int64_t>());
+    return returnReduce(rowsAsked_, sumOp<int64_t>());
 }
 
 

@@ -18,10 +18,12 @@ License
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
-Foam::granularState::stressColumns
-Foam::granularState::presentStress() const
+Foam::granularState::stressColumns Foam::granularState::endStress() const
 {
-    stressColumns stress(sigma_);
+    stressColumns stress
+    (
+        moved_ ? accepted_.stress : proposed_ ? askedStress() : sigma_
+    );
     for (scalarField& column : stress)
     {
         column.negate();
@@ -42,13 +44,27 @@ void Foam::granularState::enableDeformation(const scalarField& strength)
     }
 
     deforms_ = true;
-    origin_.setSize(state_.size(), cells);
-    originStrain_.resize(cells, Zero);
-    deformed_.setSize(state_.size(), cells);
-    deformedK_ = K_;
-    deformedSigma_ = sigma_;
-    rows_.clear();
-    keepOrigin();
+    stepStrain_.resize(cells, Zero);
+    tried_.setSize(state_.size(), model_->components(), cells);
+    accepted_.setSize(state_.size(), model_->components(), cells);
+}
+
+
+void Foam::granularState::strainAll
+(
+    granularModel::query& query,
+    const scalar* const* from,
+    const scalarField& thermal
+)
+{
+    query.size = mesh_.nCells();
+    query.state = from;
+    query.strain = thermal.cdata();
+    query.totalStrain = thermalStrain_.primitiveField().cdata();
+    query.temperature =
+        model_->isThreeDimensional() ? temperature_.cdata() : nullptr;
+    query.trial = true;
+    model_->advance(query);
 }
 
 
@@ -59,7 +75,7 @@ void Foam::granularState::evaluateTrial
     const UList<scalar*>& tangent
 )
 {
-    const auto pointers = [](const List<scalarField>& columns)
+    const auto pointers = [](const auto& columns)
     {
         List<const scalar*> result(columns.size());
         forAll(result, i)
@@ -70,17 +86,12 @@ void Foam::granularState::evaluateTrial
     };
     const List<const scalar*> strained(pointers(strain.strain));
     const List<const scalar*> turned(pointers(strain.rotation));
+    const List<const scalar*> start(pointers(state_));
 
     granularModel::query query;
-    query.size = mesh_.nCells();
-    query.state = origin_.pointers.cdata();
-    query.nextState = deformed_.pointers.cdata();
-    query.strain = originStrain_.cdata();
-    query.totalStrain = thermalStrain_.primitiveField().cdata();
     query.cellStrain = strained.cdata();
     query.rotation = turned.cdata();
-    query.temperature = model_->isThreeDimensional() ? temperature_.cdata() : nullptr;
-    answer(query, deformedK_, deformedSigma_);
+    tried_.answer(query, model_());
     if (model_->conductsApart())
     {
         query.conductivityXX = query.conductivityYY = query.conductivityZZ =
@@ -88,46 +99,35 @@ void Foam::granularState::evaluateTrial
             query.conductivityYZ = nullptr;
     }
     query.tangent = tangent.cdata();
-    query.trial = true;
-    model_->advance(query);
+    strainAll
+    (
+        query,
+        moved_ ? accepted_.state.pointers.cdata() : start.cdata(),
+        stepStrain()
+    );
 
     // Compression positive becomes tension positive, of which the derivative
     // is the same
-    stress.resize(deformedSigma_.size());
+    stress.resize(tried_.stress.size());
     forAll(stress, i)
     {
-        stress[i] = -deformedSigma_[i];
+        stress[i] = -tried_.stress[i];
     }
 }
 
 
-void Foam::granularState::commitTrial()
+void Foam::granularState::acceptTrial()
 {
-    originStrain_ = 0;
     if (model_->conductsApart())
     {
         // The conductivity of the state that was tried, which no strain leaves
         // as it is
         granularModel::query query;
-        query.size = mesh_.nCells();
-        query.state = deformed_.pointers.cdata();
-        query.nextState = deformed_.pointers.cdata();
-        query.strain = originStrain_.cdata();
-        query.totalStrain = thermalStrain_.primitiveField().cdata();
-        query.temperature = temperature_.cdata();
-        answer(query, deformedK_, deformedSigma_);
-        query.trial = true;
-        model_->advance(query);
+        tried_.answer(query, model_());
+        strainAll(query, tried_.state.pointers.cdata(), zero_);
     }
-    forAll(state_, i)
-    {
-        state_[i].primitiveFieldRef() = deformed_.values[i];
-    }
-    // Further strains start from here
-    deformed_.swap(origin_);
-    K_ = deformedK_;
-    sigma_ = deformedSigma_;
-    setWallResistance();
+    tried_.swap(accepted_);
+    moved_ = true;
 }
 
 

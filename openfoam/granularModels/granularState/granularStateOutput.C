@@ -158,39 +158,18 @@ void Foam::granularState::refresh()
     {
         followers_();
     }
-    symmTensorField& K = conductivity_.primitiveFieldRef();
     symmTensorField& sigma = stress_.primitiveFieldRef();
-    const label shear = shearColumn();
-
-    forAll(K, celli)
+    forAll(sigma, celli)
     {
-        K[celli].xx() = K_.xx[celli];
-        K[celli].yy() = K_.yy[celli];
-
-        // Compression positive becomes tension positive
-        sigma[celli].xx() = -sigma_[0][celli];
-        sigma[celli].yy() = -sigma_[1][celli];
-        sigma[celli].xy() = 0 - sigma_[shear][celli];    // not -0
-        if (otherStress_.size())
-        {
-            sigma[celli] = otherStress_[celli];
-        }
-    }
-    forAll(K_.zz, celli)
-    {
-        K[celli].zz() = K_.zz[celli];
-        K[celli].xz() = K_.xz[celli];
-        K[celli].yz() = K_.yz[celli];
-        if (otherStress_.empty())
-        {
-            sigma[celli].zz() = -sigma_[2][celli];
-            sigma[celli].xz() = 0 - sigma_[4][celli];
-            sigma[celli].yz() = 0 - sigma_[5][celli];
-        }
-    }
-    forAll(K_.xy, celli)
-    {
-        K[celli].xy() = K_.xy[celli];
+        // Compression positive becomes tension positive; not -0
+        const symmTensor s(modelAnswers::tensorOf(sigma_, celli));
+        sigma[celli] =
+            otherStress_.size()
+          ? otherStress_[celli]
+          : symmTensor
+            (
+               -s.xx(), 0 - s.xy(), 0 - s.xz(), -s.yy(), 0 - s.yz(), 0 - s.zz()
+            );
     }
     pressure_.primitiveFieldRef() = presentPressure();
     // The mass of a cell is constant: if its area grows, the bulk density falls
@@ -236,16 +215,23 @@ Foam::string Foam::granularState::describe(const label celli) const
 {
     // Columns after the first two belong to a law's inner state: a law of
     // spheres has two dozen
+    const label row = proposed_ ? rows_.find(celli) : -1;
     OStringStream text;
     for (label i = 0; i < min(state_.size(), label(2)); ++i)
     {
-        text<< state_[i].name() << ' ' << state_[i][celli] << ", ";
+        text<< state_[i].name() << ' '
+            << (
+                moved_ ? accepted_.state.values[i][celli]
+              : row >= 0 ? asked_.state.values[i][row]
+              : state_[i][celli]
+               )
+            << ", ";
     }
     text<< "stress (" << (model_->isThreeDimensional() ? "xx yy zz xy xz yz" : "xx yy xy")
         << ", tension positive)";
-    for (const scalarField& column : sigma_)
+    for (const scalarField& column : endStress())
     {
-        text<< ' ' << 0 - column[celli];
+        text<< ' ' << 0 + column[celli];
     }
     text<< " Pa";
     return text.str();

@@ -104,18 +104,6 @@ static void compareWithPlane(const fvMesh& mesh, const symmTensorField& stress)
 
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
-void Foam::granularState::columns::setSize(const label count, const label cells)
-{
-    values.resize(count);
-    pointers.resize(count);
-    forAll(values, i)
-    {
-        values[i].resize(cells, Zero);
-        pointers[i] = values[i].data();
-    }
-}
-
-
 Foam::granularState::granularState
 (
     const granularProperties& properties,
@@ -196,7 +184,7 @@ Foam::granularState::granularState
     strengthGiven_(false),
     deforms_(false),
     queries_(0),
-    asked_(0),
+    rowsAsked_(0),
     cellSteps_(0),
     clamped_(0),
     clampedNow_(0),
@@ -421,32 +409,21 @@ void Foam::granularState::allocate()
     const label count = state_.size();
 
     bound_ = model_->smallestStrain();
-    for (conductivityColumns* K : {&K_, &trialK_, &askedK_})
-    {
-        K->xx.resize(cells, Zero);
-        K->yy.resize(cells, Zero);
-        K->xy.resize(model_->diagonal() ? 0 : cells, Zero);
-        for (scalarField* column : {&K->zz, &K->xz, &K->yz})
-        {
-            column->resize(model_->isThreeDimensional() ? cells : 0, Zero);
-        }
-    }
     for
     (
         scalarField* column :
         {
-            &lastStrain_, &nextIncrement_, &nextStrain_, &strain_,
-            &halfStrain_, &total_, &zero_, &askedTemperature_
+            &lastStrain_, &strain_, &halfStrain_, &total_, &zero_,
+            &askedTemperature_
         }
     )
     {
         column->resize(cells, Zero);
     }
-    sigma_ = stressColumns(model_->components(), scalarField(cells, Zero));
-    askedSigma_ = sigma_;
+    asked_.setSize(count, model_->components(), cells);
+    sigma_ = asked_.stress;
     rows_.setCapacity(cells);
     before_.setSize(count, cells);
-    after_.setSize(count, cells);
 }
 
 
@@ -588,14 +565,13 @@ void Foam::granularState::warm
           ? scalarField(T.primitiveField())
           : scalarField(start + (scalar(part)/parts)*way)
         );
-        commitStrain();
         scalar error;
-        if (propose(false, false, error))
+        if (propose(false, error))
         {
             policy_.refuseCut();
         }
-        commit();
         balance();
+        commit();
     }
     refresh();
 
@@ -614,11 +590,11 @@ void Foam::granularState::warm
 void Foam::granularState::askStart()
 {
     rows_ = identity(mesh_.nCells());
-    gather(zero_, thermalStrain_.primitiveField());
+    gather(zero_);
 
     const bool restarted = mesh_.time().timeIndex() > 0;
-    const label outside = ask(before_, after_, strain_, false);
-    if (judge(outside, after_, "At the start") && !restarted)
+    const label outside = ask(before_, asked_.state, strain_, false);
+    if (judge(outside, asked_.state, "At the start") && !restarted)
     {
         policy_.refuseCut();
     }
@@ -627,9 +603,10 @@ void Foam::granularState::askStart()
     // This query is without strain. After a restart, strain accumulated in
     // thermalStrainIncrement is left for the first step, and the total strain
     // given here already contains it
-    const snapshot before(saveState());
+    const scalarField waiting(thermalStrainIncrement_.primitiveField());
     commit();
-    thermalStrainIncrement_.primitiveFieldRef() = before.increment;
+    startIncrement_ = waiting;
+    thermalStrainIncrement_.primitiveFieldRef() = waiting;
 
     // The strain of the last query is not known after a restart; any value
     // but 0 makes the next query include all cells

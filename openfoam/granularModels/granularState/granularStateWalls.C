@@ -88,7 +88,11 @@ void Foam::granularState::reportWalls(const volScalarField& T) const
 }
 
 
-void Foam::granularState::setWallResistance()
+void Foam::granularState::setWallResistance
+(
+    const symmTensorField& K,
+    const stressColumns& sigma
+)
 {
     if (!wallResistance_.valid())
     {
@@ -100,9 +104,50 @@ void Foam::granularState::setWallResistance()
         if (resists(T.boundaryField()[patchi]))
         {
             scalarField conductivity, resistance;
-            atWall(patchi, temperature_, true, conductivity, resistance);
+            atWall
+            (
+                patchi, temperature_, true, K, sigma, conductivity, resistance
+            );
             wallResistance_().boundaryFieldRef()[patchi] == resistance;
         }
+    }
+}
+
+
+void Foam::granularState::atWall
+(
+    const label patchi,
+    const scalarField& T,
+    const bool resists,
+    const symmTensorField& K,
+    const stressColumns& sigma,
+    scalarField& conductivity,
+    scalarField& resistance
+) const
+{
+    const fvPatch& patch = mesh_.boundary()[patchi];
+    const labelUList& cells = patch.faceCells();
+    const vectorField n(patch.nf());
+    scalarField stress(n.size()), temperature(n.size());
+    conductivity.resize(n.size());
+    resistance = scalarField(n.size(), Zero);
+    forAll(n, facei)
+    {
+        const label celli = cells[facei];
+        stress[facei] =
+            n[facei] & (modelAnswers::tensorOf(sigma, celli) & n[facei]);
+        temperature[facei] = T[celli];
+        // Above zero for the law, also in a vacuum without contacts
+        conductivity[facei] = max
+        (
+            properties_.conductivityFactor()
+           *(n[facei] & (K[celli] & n[facei])),
+            SMALL
+        );
+    }
+    if (resists)
+    {
+        model_->wallResistance(stress, temperature, conductivity, resistance);
     }
 }
 
@@ -118,49 +163,11 @@ void Foam::granularState::atWall
     scalarField& resistance
 ) const
 {
-    const bool spatial = sigma_.size() == 6;
-    const label shear = shearColumn();
-    const fvPatch& patch = mesh_.boundary()[patchi];
-    const labelUList& cells = patch.faceCells();
-    const vectorField n(patch.nf());
-    scalarField stress(n.size()), temperature(n.size());
-    conductivity.resize(n.size());
-    resistance = scalarField(n.size(), Zero);
-    forAll(n, facei)
-    {
-        const label celli = cells[facei];
-        const symmTensor sigma
-        (
-            sigma_[0][celli],
-            sigma_[shear][celli],
-            spatial ? sigma_[4][celli] : 0,
-            sigma_[1][celli],
-            spatial ? sigma_[5][celli] : 0,
-            spatial ? sigma_[2][celli] : 0
-        );
-        const symmTensor K
-        (
-            K_.xx[celli],
-            K_.xy.size() ? K_.xy[celli] : 0,
-            K_.zz.size() ? K_.xz[celli] : 0,
-            K_.yy[celli],
-            K_.zz.size() ? K_.yz[celli] : 0,
-            K_.zz.size() ? K_.zz[celli] : 0
-        );
-        stress[facei] = n[facei] & (sigma & n[facei]);
-        temperature[facei] = T[celli];
-        // Above zero for the law, also in a vacuum without contacts
-        conductivity[facei] = max
-        (
-            properties_.conductivityFactor()
-           *(n[facei] & (K & n[facei])),
-            SMALL
-        );
-    }
-    if (resists)
-    {
-        model_->wallResistance(stress, temperature, conductivity, resistance);
-    }
+    atWall
+    (
+        patchi, T, resists, conductivity_.primitiveField(), sigma_,
+        conductivity, resistance
+    );
 }
 
 

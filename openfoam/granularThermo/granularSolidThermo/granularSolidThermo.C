@@ -158,7 +158,6 @@ Foam::granularSolidThermo::granularSolidThermo
     grains_.warm(T_, []() {});
     setEnergy();
     setGradients();
-    grains_.markIncrement();
     setConductivity();
     grains_.record().writeRegion();
 }
@@ -294,10 +293,17 @@ void Foam::granularSolidThermo::setGradients()
 void Foam::granularSolidThermo::setConductivity()
 {
     vectorField& along = Kappa_.primitiveFieldRef();
+    symmTensorField K(grains_.conductivity().primitiveField());
+    if (!grains_.model().isThreeDimensional())
+    {
+        for (symmTensor& cell : K)
+        {
+            cell.zz() = grains_.model().conductivityZZ();
+        }
+    }
     axes_.apply
     (
-        grains_.conductivityOfCells(),
-        grains_.model().conductivityZZ(),
+        K,
         along,
         aniAlpha_.primitiveFieldRef()
     );
@@ -380,12 +386,11 @@ void Foam::granularSolidThermo::begin() const
 
     // Steps 1 to 3 of Algorithm 1, with the strain of the last step
     scalar error;
-    if (self.grains_.propose(false, false, error))
+    if (self.grains_.propose(false, error))
     {
         self.grains_.policy().refuseCut();
     }
     self.grains_.commit();
-    self.grains_.markIncrement();
     self.setConductivity();
 }
 
@@ -413,7 +418,7 @@ void Foam::granularSolidThermo::correct()
     setEnergy();
 
     // Step 5, anew after each solution in a step
-    grains_.restartIncrement(startT_, T_.primitiveField());
+    grains_.strain(startT_, T_.primitiveField());
     grains_.finishStep();
 }
 

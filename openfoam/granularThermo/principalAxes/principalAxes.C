@@ -91,24 +91,15 @@ static scalar leftOut(const symmTensor& K)
 }
 
 
-//- Conductivity of a cell
-static symmTensor tensorOf
-(
-    const granularState::conductivityColumns& K,
-    const scalar Kzz,
-    const label celli
-)
+//- Whether there is heat out of the plane of x and y because of a gradient in it
+static bool isSpatial(const symmTensorField& K)
 {
-    const bool spatial = K.zz.size();
-    return symmTensor
-    (
-        K.xx[celli],
-        K.xy.size() ? K.xy[celli] : 0,
-        spatial ? K.xz[celli] : 0,
-        K.yy[celli],
-        spatial ? K.yz[celli] : 0,
-        spatial ? K.zz[celli] : Kzz
-    );
+    bool spatial = false;
+    for (const symmTensor& cell : K)
+    {
+        spatial = spatial || cell.xz() != 0 || cell.yz() != 0;
+    }
+    return returnReduce(spatial, orOp<bool>());
 }
 
 
@@ -161,30 +152,14 @@ Foam::principalAxes::principalAxes(dictionary& dict, const fvMesh& mesh)
 
 Foam::scalar Foam::principalAxes::turn
 (
-    const granularState::conductivityColumns& K,
-    const scalar Kzz,
+    const symmTensorField& K,
     vectorField& along
 ) const
 {
     scalar error = 0;
-    if (rotation_.empty() && K.zz.empty())
-    {
-        forAll(along, celli)
-        {
-            along[celli] = vector(K.xx[celli], K.yy[celli], Kzz);
-        }
-        forAll(K.xy, celli)
-        {
-            error = max
-            (
-                error, leftOut(K.xx[celli], K.yy[celli], K.xy[celli])
-            );
-        }
-        return error;
-    }
     forAll(along, celli)
     {
-        symmTensor turned(tensorOf(K, Kzz, celli));
+        symmTensor turned(K[celli]);
         if (rotation_.size())
         {
             turned = Foam::transform(rotation_[celli].T(), turned);
@@ -198,17 +173,16 @@ Foam::scalar Foam::principalAxes::turn
 
 Foam::tensor Foam::principalAxes::bestAxes
 (
-    const granularState::conductivityColumns& K,
-    const scalar Kzz
+    const symmTensorField& K
 ) const
 {
     symmTensor sum(Zero);
-    forAll(K.xx, celli)
+    forAll(K, celli)
     {
-        sum += mesh_.V()[celli]*tensorOf(K, Kzz, celli);
+        sum += mesh_.V()[celli]*K[celli];
     }
     reduce(sum, sumOp<symmTensor>());
-    if (K.zz.empty())
+    if (!isSpatial(K))
     {
         const scalar half = 0.5*(sum.xx() - sum.yy());
         const scalar angle = 0.5*std::atan2(sum.xy(), half);
@@ -226,18 +200,17 @@ Foam::tensor Foam::principalAxes::bestAxes
 
 void Foam::principalAxes::refuse
 (
-    const granularState::conductivityColumns& K,
-    const scalar Kzz,
+    const symmTensorField& K,
     const scalar error
 ) const
 {
-    const tensor axes(bestAxes(K, Kzz));
+    const tensor axes(bestAxes(K));
     scalar left = 0;
-    forAll(K.xx, celli)
+    forAll(K, celli)
     {
         left = max
         (
-            left, leftOut(Foam::transform(axes, tensorOf(K, Kzz, celli)))
+            left, leftOut(Foam::transform(axes, K[celli]))
         );
     }
     reduce(left, maxOp<scalar>());
@@ -249,7 +222,7 @@ void Foam::principalAxes::refuse
     FatalIOErrorInFunction(dict_)
         << "The conductivity of region " << mesh_.name() << " at time "
         << mesh_.time().timeName() << " has a component "
-        << (K.zz.empty() ? "K_xy" : "K_xy, K_xz or K_yz") << " in addition to those"
+        << (isSpatial(K) ? "K_xy, K_xz or K_yz" : "K_xy") << " in addition to those"
         << " along the axes of coordinateSystem, which this solver cannot take:"
         << " without it the error of the heat flux is up to "
         << shown(100*error).c_str() << " %, allowed: "
@@ -267,32 +240,31 @@ void Foam::principalAxes::refuse
 
 void Foam::principalAxes::apply
 (
-    const granularState::conductivityColumns& K,
-    const scalar Kzz,
+    const symmTensorField& K,
     vectorField& along,
     symmTensorField& taken
 )
 {
-    const scalar mine = turn(K, Kzz, along);
+    const scalar mine = turn(K, along);
     forAll(taken, celli)
     {
         const vector& k = along[celli];
         taken[celli] =
             foamTakesTensor
-          ? tensorOf(K, Kzz, celli)
+          ? K[celli]
           : Foam::transform
             (
                 rotation(celli), symmTensor(k.x(), 0, 0, k.y(), 0, k.z())
             );
     }
-    if (foamTakesTensor || (rotation_.empty() && K.xy.empty()))
+    if (foamTakesTensor)
     {
         return;
     }
     const scalar error = returnReduce(mine, maxOp<scalar>());
     if (error > tolerance_)
     {
-        refuse(K, Kzz, error);
+        refuse(K, error);
     }
     if (error > roundOff && error_ <= roundOff)
     {

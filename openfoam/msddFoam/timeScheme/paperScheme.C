@@ -70,16 +70,16 @@ void Foam::timeSchemes::paper::step()
     // Steps 1 to 3: state of the grains from n to n + 1, with the thermal
     // strain of the last change of T
     scalar error;
-    if (grains_.propose(false, false, error))
+    if (grains_.propose(false, error))
     {
         grains_.policy().refuseCut();
     }
-    grains_.commit();
 
     stepWatch::doing("the mechanics");
     // Equilibrium of the resulting stress
     mechanics_.setForce(heat_.flow().force()());
     mechanics_.solve(true);
+    grains_.commit();
 
     stepWatch::doing("the heat equation");
     // Step 4: the heat equation
@@ -88,13 +88,12 @@ void Foam::timeSchemes::paper::step()
     (
         heat_.equivalent(Told_)(),
         deltaT,
-        mechanics_.pulledBack(grains_.conductivityOfCells())
+        mechanics_.pulledBack(grains_.conductivity().primitiveField())
     );
     account(deltaT);
 
     // Step 5: thermal strain
     grains_.strain(Told_, T_.primitiveField());
-    grains_.commitStrain();
     observe(deltaT);
 }
 

@@ -95,22 +95,6 @@ static const label mostHalvings = 10;
 //- least component of the directions in which heat is conducted
 static const scalar mostAhead = 0.5;
 
-//- Resistance of walls, which the second stage changes; empty if there is none
-static List<scalarField> wallResistance(const fvMesh& mesh)
-{
-    List<scalarField> result;
-    const auto* field = mesh.findObject<volScalarField>("wallResistance");
-    if (field)
-    {
-        for (const fvPatchScalarField& patch : field->boundaryField())
-        {
-            result.append(patch);
-        }
-    }
-    return result;
-}
-
-
 //- Conductivity at the start of the last step, where grains move
 static const char* const earlierName = "conductivityBefore";
 
@@ -217,7 +201,7 @@ void Foam::timeSchemes::secondOrder::updateTemperatureRange()
     {
         scalar T = 0;
         const auto* wall = dynamic_cast<const resistingWall*>(&patch);
-        if (heatEquation::isGiven(patch))
+        if (heatConduction::isGiven(patch))
         {
             look(patch);
         }
@@ -233,28 +217,23 @@ void Foam::timeSchemes::secondOrder::updateTemperatureRange()
 }
 
 
-const Foam::granularState::conductivityColumns&
-Foam::timeSchemes::secondOrder::ahead(const scalar deltaT)
+void Foam::timeSchemes::secondOrder::extrapolate
+(
+    const symmTensorField& K,
+    const scalar deltaT
+)
 {
-    stageK_ = startK_;
+    stageK_ = K;
     if (lastDeltaT_ <= 0)
     {
-        return stageK_;
+        return;
     }
     const scalar factor = deltaT/(2*gamma2*lastDeltaT_);
-    const bool spatial = startK_.zz.size();
+    const bool spatial = grains_.model().isThreeDimensional();
     const symmTensorField& earlier = earlier_().primitiveField();
     forAll(earlier, celli)
     {
-        const auto component = [celli](const scalarField& column)
-        {
-            return column.empty() ? 0 : column[celli];
-        };
-        const symmTensor now
-        (
-            startK_.xx[celli], component(startK_.xy), component(startK_.xz),
-            startK_.yy[celli], component(startK_.yz), component(startK_.zz)
-        );
+        const symmTensor& now = K[celli];
         const symmTensor change(factor*(now - earlier[celli]));
         const scalar least = min
         (
@@ -262,48 +241,8 @@ Foam::timeSchemes::secondOrder::ahead(const scalar deltaT)
         );
         const scalar share =
             min(scalar(1), mostAhead*least/max(mag(change), VSMALL));
-        const symmTensor then(now + share*change);
-        stageK_.xx[celli] = then.xx();
-        stageK_.yy[celli] = then.yy();
-        if (stageK_.xy.size())
-        {
-            stageK_.xy[celli] = then.xy();
-        }
-        if (spatial)
-        {
-            stageK_.zz[celli] = then.zz();
-            stageK_.xz[celli] = then.xz();
-            stageK_.yz[celli] = then.yz();
-        }
+        stageK_[celli] = now + share*change;
     }
-    return stageK_;
-}
-
-
-void Foam::timeSchemes::secondOrder::keepConductivity(const scalar deltaT)
-{
-    if (!mechanics_.canFail())
-    {
-        return;
-    }
-    lastDeltaT_ = deltaT;
-    symmTensorField& earlier = earlier_().primitiveFieldRef();
-    forAll(earlier, celli)
-    {
-        earlier[celli].xx() = startK_.xx[celli];
-        earlier[celli].yy() = startK_.yy[celli];
-    }
-    forAll(startK_.xy, celli)
-    {
-        earlier[celli].xy() = startK_.xy[celli];
-    }
-    forAll(startK_.zz, celli)
-    {
-        earlier[celli].zz() = startK_.zz[celli];
-        earlier[celli].xz() = startK_.xz[celli];
-        earlier[celli].yz() = startK_.yz[celli];
-    }
-    earlier_().correctBoundaryConditions();
 }
 
 
@@ -343,7 +282,11 @@ Foam::scalar Foam::timeSchemes::secondOrder::fitted(const scalar deltaT) const
 }
 
 
-Foam::scalar Foam::timeSchemes::secondOrder::stages(const scalar deltaT)
+Foam::scalar Foam::timeSchemes::secondOrder::stages
+(
+    const symmTensorField& K,
+    const scalar deltaT
+)
 {
     scalarField& T = T_.primitiveFieldRef();
     const scalar start = time_.value();
@@ -351,7 +294,7 @@ Foam::scalar Foam::timeSchemes::secondOrder::stages(const scalar deltaT)
     // Boundary values are evaluated at the time of the stage
     time_.value() = start + gamma2*deltaT;
     const scalarField before(heat_.equivalent(Told_));
-    heat_.solve(before, gamma2*deltaT, startK_);
+    heat_.solve(before, gamma2*deltaT, K);
     firstHeat_ = heat_.patchHeat();
     firstFaceHeat_ = heat_.faceHeat();
     firstSource_ = heat_.sourceHeat();
@@ -368,13 +311,15 @@ Foam::scalar Foam::timeSchemes::secondOrder::stages(const scalar deltaT)
     }
     // Where grains move, those that swell in their places would conduct by far
     // too well or too badly: their stress changes before it is in equilibrium
-    const bool moves = mechanics_.canFail();
-    if (!moves)
+    if (mechanics_.canFail())
+    {
+        extrapolate(K, deltaT);
+    }
+    else
     {
         grains_.strain(Told_, stage_);
+        grains_.findConductivity(stageK_);
     }
-    const granularState::conductivityColumns& K =
-        moves ? ahead(deltaT) : grains_.trialConductivity();
 
     // The stages of the heat; only the first guess is one of T
     const scalarField first(heat_.equivalent(T));
@@ -387,7 +332,7 @@ Foam::scalar Foam::timeSchemes::secondOrder::stages(const scalar deltaT)
     neighbours_.secondStage(gamma2);
     heat_.flow().secondStage(gamma2);
     time_.value() = start + deltaT;
-    heat_.solve(stage_, gamma2*deltaT, K);
+    heat_.solve(stage_, gamma2*deltaT, stageK_);
     time_.value() = start;
 
     scalar error = neighbours_.stageError(gamma2);
@@ -406,12 +351,13 @@ Foam::scalar Foam::timeSchemes::secondOrder::stages(const scalar deltaT)
 
 Foam::scalar Foam::timeSchemes::secondOrder::attempt
 (
+    const symmTensorField& K,
     const scalar deltaT,
     bool& cut
 )
 {
     stepWatch::doing("the heat equation");
-    const scalar difference = stages(deltaT);
+    const scalar difference = stages(K, deltaT);
     const scalar error = adaptive_ ? difference/tolerance() : 0;
     cut = false;
 
@@ -422,7 +368,7 @@ Foam::scalar Foam::timeSchemes::secondOrder::attempt
     stepWatch::doing("the model");
     scalar stateError;
     grains_.strain(Told_, T_.primitiveField());
-    cut = grains_.propose(true, true, stateError);
+    cut = grains_.propose(true, stateError);
 
     return max(error, stateError/stateTolerance_);
 }
@@ -438,15 +384,9 @@ bool Foam::timeSchemes::secondOrder::settle
     mechanics_.setForce(heat_.flow().force()());
     if (lastAttempt || !mechanics_.canFail())
     {
-        grains_.commitStrain();
-        grains_.commit();
         advanceTime();
         return mechanics_.solve(true);
     }
-    const granularState::snapshot before(grains_.saveState());
-    grains_.commitStrain();
-    grains_.commit();
-
     // Displacements and pressures of walls are evaluated at the step's end
     const scalar start = time_.value();
     time_.value() = start + deltaT;
@@ -455,10 +395,6 @@ bool Foam::timeSchemes::secondOrder::settle
     if (found)
     {
         advanceTime();
-    }
-    else
-    {
-        grains_.restore(before);
     }
     return found;
 }
@@ -505,15 +441,15 @@ void Foam::timeSchemes::secondOrder::step()
     }
     setLog();
     Told_ = T_.primitiveField();
-    startK_ = mechanics_.pulledBack(grains_.conductivityOfCells());
+    const symmTensorField& K =
+        mechanics_.pulledBack(grains_.conductivity().primitiveField());
     neighbours_.begin();
     heat_.flow().begin();
-    const List<scalarField> resistance(wallResistance(T_.mesh()));
 
     while (true)
     {
         time_.setDeltaT(deltaT, false);
-        error = attempt(deltaT, cut);
+        error = attempt(K, deltaT, cut);
 
         const bool smallest = !adaptive_ || deltaT <= minDeltaT_;
         if (cut && smallest)
@@ -531,11 +467,7 @@ void Foam::timeSchemes::secondOrder::step()
         }
         ++rejected_;
         T_.primitiveFieldRef() = Told_;
-        forAll(resistance, patchi)
-        {
-            T_.mesh().lookupObjectRef<volScalarField>("wallResistance")
-               .boundaryFieldRef()[patchi] == resistance[patchi];
-        }
+        grains_.reject(Told_);
         neighbours_.restore();
         heat_.flow().restore();
         const scalar factor =
@@ -544,7 +476,13 @@ void Foam::timeSchemes::secondOrder::step()
     }
     forced_ += adaptive_ && error > 1;
     updateTemperatureRange();
-    keepConductivity(deltaT);
+    if (mechanics_.canFail())
+    {
+        lastDeltaT_ = deltaT;
+        earlier_().primitiveFieldRef() = K;
+        earlier_().correctBoundaryConditions();
+    }
+    grains_.commit();
 
     accountStages(deltaT);
     observe(deltaT);

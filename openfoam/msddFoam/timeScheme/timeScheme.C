@@ -344,16 +344,18 @@ void Foam::timeScheme::report() const
         Info<< "    " << name << ": least " << gMin(values) << ", mean " << mean
             << ", largest " << gMax(values) << unit << nl;
     };
-    const granularState::conductivityColumns& K = grains_.conductivityOfCells();
-    const bool spatial = K.zz.size() || grains_.model().isThreeDimensional();
+    const symmTensorField& K = grains_.conductivity().primitiveField();
     line("T", T_.primitiveField(), " K");
     line("p", grains_.presentPressure()(), " Pa");
     line
     (
         "K, mean of the axes",
-        spatial
-      ? scalarField((K.xx + K.yy + K.zz)/3)
-      : scalarField(0.5*(K.xx + K.yy)),
+        grains_.model().isThreeDimensional()
+      ? scalarField(tr(K)/3)
+      : scalarField
+        (
+            0.5*(K.component(symmTensor::XX) + K.component(symmTensor::YY))
+        ),
         " W/(m K)"
     );
 }
@@ -384,7 +386,7 @@ void Foam::timeScheme::tryHeat()
     (
         heat_.equivalent(T_.primitiveField())(),
         time_.deltaTValue(),
-        mechanics_.pulledBack(grains_.conductivityOfCells())
+        mechanics_.pulledBack(grains_.conductivity().primitiveField())
     );
 }
 
