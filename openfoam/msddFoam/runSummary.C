@@ -99,6 +99,95 @@ void Foam::runSummary::writeCourse
 }
 
 
+void Foam::runSummary::writeMechanics(Ostream& os) const
+{
+    const granularMechanics::counters moved(mechanics_.count());
+    os  << "  \"mechanics\": {\"kind\": " << string(mechanics_.type())
+        << ", \"solves\": " << moved.solves
+        << ", \"iterations\": " << moved.iterations
+        << ", \"linear_iterations\": " << moved.linear
+        << ", \"cut_steps\": " << moved.cut
+        << ", \"unconverged_steps\": " << moved.unconverged
+        << ", \"residual\": " << moved.residual
+        << ", \"unconverged_residual\": " << moved.unbalanced
+        << ", \"displacement\": " << moved.displacement
+        << ", \"gap\": " << moved.gap
+        << ", \"warnings\": [";
+    forAll(moved.warnings, i)
+    {
+        os  << (i ? ", " : "") << moved.warnings[i];
+    }
+    os  << "]},\n";
+}
+
+
+void Foam::runSummary::writeFinal(Ostream& os) const
+{
+    const fvMesh& mesh = grains_.mesh();
+    const auto mean = [&mesh](const auto& field)
+    {
+        return field.weightedAverage(mesh.V()).value();
+    };
+    const symmTensor K = mean(grains_.conductivity());
+    const symmTensor stress = mean(grains_.stress());
+    os  << "  \"model\": {\"source\": " << grains_.model().source()
+        << ", \"hash\": " << string(grains_.model().hash())
+        << ", \"library_version\": "
+        << string(granularModel::libraryVersion());
+    for (const auto& item : grains_.modelCounts())
+    {
+        os  << ", \"" << item.first.c_str() << "\": " << item.second;
+    }
+    os  << "},\n"
+        << "  \"final\": {\n"
+        << "    \"time\": " << mesh.time().value() << ",\n"
+        << "    \"porosity\": " << mean(grains_.porosity()) << ",\n"
+        << "    \"fabric\": " << mean(grains_.fabricIndex()) << ",\n"
+        << "    \"conductivity_xx\": " << K.xx() << ",\n"
+        << "    \"conductivity_yy\": " << K.yy() << ",\n";
+    if (grains_.model().isThreeDimensional())
+    {
+        os  << "    \"conductivity_zz\": " << K.zz() << ",\n"
+            << "    \"stress_zz\": " << -stress.zz() << ",\n";
+    }
+    os  << "    \"stress_xx\": " << -stress.xx() << ",\n"
+        << "    \"stress_yy\": " << -stress.yy() << ",\n"
+        << "    \"pressure\": " << mean(grains_.pressure()) << "\n  }\n}"
+        << endl;
+}
+
+
+Foam::DynamicList<Foam::string> Foam::runSummary::sentences
+(
+    const heatBalance& heat,
+    const string& solids,
+    const granularFlow& flow
+) const
+{
+    DynamicList<string> result(runRecord::notes);
+    DynamicList<string> all(flow.sentences());
+    for
+    (
+        const string& sentence :
+        {
+            range(), radiation(), contacts(), warning(), unloaded(), contact(),
+            balance(heat), solids, steadiness(heat), motion(), cost()
+        }
+    )
+    {
+        all.append(sentence);
+    }
+    for (const string& sentence : all)
+    {
+        if (!sentence.empty())
+        {
+            result.append(sentence);
+        }
+    }
+    return result;
+}
+
+
 void Foam::runSummary::write
 (
     const runResults& results,
@@ -113,46 +202,12 @@ void Foam::runSummary::write
     const label steps = time.timeIndex() - time.startTimeIndex();
     const label cells = returnReduce(mesh.nCells(), sumOp<label>());
     const int64_t clamped = grains_.clampedQueries();
-    const granularMechanics::counters moved(mechanics_.count());
     const int64_t asked = grains_.asked(), all = grains_.cellSteps();
-
-    const auto mean = [&mesh](const auto& field)
-    {
-        return field.weightedAverage(mesh.V()).value();
-    };
-    const scalar meanPorosity = mean(grains_.porosity());
-    const scalar meanFabric = mean(grains_.fabricIndex());
-    const symmTensor meanK = mean(grains_.conductivity());
-    const symmTensor meanStress = mean(grains_.stress());
-    const scalar meanPressure = mean(grains_.pressure());
-    const granularModel::counters counts(grains_.modelCounts());
     const scalar wallSeconds = wallClock_.elapsedTime();
     const scalar cpuSeconds =
         returnReduce(time.elapsedCpuTime(), sumOp<scalar>());
-
     const heatBalance heat(this->heat());
-    DynamicList<string> sentences(runRecord::notes);
-    for (const string& sentence : flow.sentences())
-    {
-        if (!sentence.empty())
-        {
-            sentences.append(sentence);
-        }
-    }
-    for
-    (
-        const string& sentence :
-        {
-            range(), radiation(), contacts(), warning(), unloaded(), contact(),
-            balance(heat), solids, steadiness(heat), motion(), cost()
-        }
-    )
-    {
-        if (!sentence.empty())
-        {
-            sentences.append(sentence);
-        }
-    }
+    const DynamicList<string> sentences(this->sentences(heat, solids, flow));
 
     Info<< "Steps: " << steps << ", repeated " << rejected << nl
         << "Wall time: " << wallSeconds << " s" << nl << nl
@@ -180,24 +235,9 @@ void Foam::runSummary::write
         << "  \"clamped_queries\": " << clamped << ",\n"
         << "  \"cell_queries\": " << asked << ",\n"
         << "  \"cell_steps\": " << all << ",\n"
-        << "  \"rejected_steps\": " << rejected << ",\n"
-        << "  \"mechanics\": {\"kind\": " << string(mechanics_.type())
-        << ", \"solves\": " << moved.solves
-        << ", \"iterations\": " << moved.iterations
-        << ", \"linear_iterations\": " << moved.linear
-        << ", \"cut_steps\": " << moved.cut
-        << ", \"unconverged_steps\": " << moved.unconverged
-        << ", \"residual\": " << moved.residual
-        << ", \"unconverged_residual\": " << moved.unbalanced
-        << ", \"displacement\": " << moved.displacement
-        << ", \"gap\": " << moved.gap
-        << ", \"warnings\": [";
-    forAll(moved.warnings, i)
-    {
-        os  << (i ? ", " : "") << moved.warnings[i];
-    }
-    os  << "]},\n"
-        << "  \"heat\": {\"patches\": " << heat.patches
+        << "  \"rejected_steps\": " << rejected << ",\n";
+    writeMechanics(os);
+    os  << "  \"heat\": {\"patches\": " << heat.patches
         << ", \"sources\": " << heat.sources
         << ", \"stored\": " << heat.stored
         << ", \"exchanged\": " << heat.exchanged
@@ -214,30 +254,8 @@ void Foam::runSummary::write
     {
         os  << (i ? ",\n    " : "\n    ") << sentences[i];
     }
-    os  << "\n  ],\n"
-        << "  \"model\": {\"source\": " << grains_.model().source()
-        << ", \"hash\": " << string(grains_.model().hash())
-        << ", \"library_version\": "
-        << string(granularModel::libraryVersion());
-    for (const auto& item : counts)
-    {
-        os  << ", \"" << item.first.c_str() << "\": " << item.second;
-    }
-    os  << "},\n"
-        << "  \"final\": {\n"
-        << "    \"time\": " << time.value() << ",\n"
-        << "    \"porosity\": " << meanPorosity << ",\n"
-        << "    \"fabric\": " << meanFabric << ",\n"
-        << "    \"conductivity_xx\": " << meanK.xx() << ",\n"
-        << "    \"conductivity_yy\": " << meanK.yy() << ",\n";
-    if (grains_.model().isThreeDimensional())
-    {
-        os  << "    \"conductivity_zz\": " << meanK.zz() << ",\n"
-            << "    \"stress_zz\": " << -meanStress.zz() << ",\n";
-    }
-    os  << "    \"stress_xx\": " << -meanStress.xx() << ",\n"
-        << "    \"stress_yy\": " << -meanStress.yy() << ",\n"
-        << "    \"pressure\": " << meanPressure << "\n  }\n}" << endl;
+    os  << "\n  ],\n";
+    writeFinal(os);
     if (Pstream::master())
     {
         writeWhole(path(), [&](std::ostream& file) { file << os.str(); });

@@ -16,80 +16,186 @@ License
 
 #include "petscObjects.H"
 
-// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
-void Foam::equilibriumSolver::assemble
+namespace Foam
+{
+
+//- Projections on the components that are free, of nodes that are held
+class freeComponents
+{
+    const wallConditions& walls_;
+    const label dim_;
+    labelList heldIndex_;
+
+public:
+
+    freeComponents(const elementMesh& mesh, const wallConditions& walls)
+    :
+        walls_(walls),
+        dim_(mesh.dim()),
+        heldIndex_(mesh.size(), -1)
+    {
+        forAll(walls.constrainedNodes(), i)
+        {
+            heldIndex_[walls.constrainedNodes()[i]] = i;
+        }
+    }
+
+    //- Set the projection; returns whether the node is held
+    bool find(const label node, tensor& P) const
+    {
+        P = tensor::I;
+        const label i = heldIndex_[node];
+        for (label k = 0; i >= 0 && k < walls_.directions()[i]; ++k)
+        {
+            const scalar* e = walls_.basis().cdata() + dim_*dim_*i + dim_*k;
+            const vector n(e[0], e[1], dim_ == 3 ? e[2] : 0);
+            P -= n*n;
+        }
+        return i >= 0;
+    }
+};
+
+
+//- Stiffness K_ij of the uniform medium between two nodes with the gradients Ba
+//- and Bb of their shapes, and of bodies of revolution the hoop strains, else null
+template<label dim>
+static void setStiffness
 (
-    const elementMesh::shapes& reference,
-    const label component
+    scalar (&K)[dim][dim],
+    const scalar* Ba,
+    const scalar* Bb,
+    const scalar* hoopA,
+    const scalar* hoopB,
+    const label r,
+    const scalar V,
+    const scalar lambda,
+    const scalar G,
+    const scalar stabilisation
 )
 {
-    const label dim = mesh_.dim(), each = component < 0 ? dim : 1;
-    const label rows = each*label(mesh_.owned().count());
-    Mat& A = petsc_->matrices[component < 0 ? 0 : component];
-
-    // Number of nodes around each node; where processes meet more than that,
-    // because they count common neighbours twice
-    scalarField here(mesh_.size(), Zero);
+    scalar both = 0;
+    for (label k = 0; k < dim; ++k)
     {
-        labelList marked(mesh_.size(), -1);
-        labelListList cellsOfNode(mesh_.size());
-        labelList count(mesh_.size(), 0);
-        for (const label node : mesh_.cellNodes())
+        both += Ba[k]*Bb[k];
+    }
+    const scalar diagonal = V*G*both + stabilisation;
+    for (label i = 0; i < dim; ++i)
+    {
+        for (label j = 0; j < dim; ++j)
         {
-            ++count[node];
-        }
-        forAll(count, node)
-        {
-            cellsOfNode[node].resize(count[node]);
-        }
-        count = 0;
-        mesh_.each([&](const auto& e)
-        {
-            for (label a = 0; a < e.size(); ++a)
+            K[i][j] =
+                V*(lambda*Ba[i]*Bb[j] + G*Ba[j]*Bb[i])
+              + (i == j ? diagonal : 0);
+            if (hoopA)
             {
-                const label node = e.nodes[a];
-                cellsOfNode[node][count[node]++] = e.cell;
-            }
-        });
-        forAll(cellsOfNode, node)
-        {
-            for (const label celli : cellsOfNode[node])
-            {
-                for
-                (
-                    label i = mesh_.cellStarts()[celli];
-                    i < mesh_.cellStarts()[celli + 1];
-                    ++i
-                )
-                {
-                    const label other = mesh_.cellNodes()[i];
-                    here[node] += marked[other] != node;
-                    marked[other] = node;
-                }
+                K[i][j] +=
+                    V
+                   *(
+                        lambda*(j == r)*Ba[i]*(*hoopB)
+                      + lambda*(i == r)*(*hoopA)*Bb[j]
+                      + (lambda + 2*G)*(i == r)*(j == r)*(*hoopA)*(*hoopB)
+                    );
             }
         }
     }
-    scalarField everywhere(here);
-    mesh_.sum(everywhere, 1);
-    List<PetscInt> inside, outside;
-    inside.resize(rows);
-    outside.resize(rows);
+}
+
+
+//- K becomes P.K.Q
+template<label dim>
+static void project(scalar (&K)[dim][dim], const tensor& P, const tensor& Q)
+{
+    scalar part[dim][dim] = {};
+    for (label i = 0; i < dim; ++i)
+    {
+        for (label j = 0; j < dim; ++j)
+        {
+            for (label k = 0; k < dim; ++k)
+            {
+                part[i][j] += P(i, k)*K[k][j];
+            }
+        }
+    }
+    for (label i = 0; i < dim; ++i)
+    {
+        for (label j = 0; j < dim; ++j)
+        {
+            K[i][j] = 0;
+            for (label k = 0; k < dim; ++k)
+            {
+                K[i][j] += part[i][k]*Q(k, j);
+            }
+        }
+    }
+}
+
+} // End namespace Foam
+
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+Foam::scalarField Foam::equilibriumSolver::nodesAround() const
+{
+    scalarField around(mesh_.size(), Zero);
+    labelList marked(mesh_.size(), -1), count(mesh_.size(), 0);
+    labelListList cellsOfNode(mesh_.size());
+    for (const label node : mesh_.cellNodes())
+    {
+        ++count[node];
+    }
+    forAll(count, node)
+    {
+        cellsOfNode[node].resize(count[node]);
+    }
+    count = 0;
+    mesh_.each([&](const auto& e)
+    {
+        for (label a = 0; a < e.size(); ++a)
+        {
+            const label node = e.nodes[a];
+            cellsOfNode[node][count[node]++] = e.cell;
+        }
+    });
+    const auto& starts = mesh_.cellStarts();
+    forAll(cellsOfNode, node)
+    {
+        for (const label celli : cellsOfNode[node])
+        {
+            for (label i = starts[celli]; i < starts[celli + 1]; ++i)
+            {
+                const label other = mesh_.cellNodes()[i];
+                around[node] += marked[other] != node;
+                marked[other] = node;
+            }
+        }
+    }
+    mesh_.sum(around, 1);
+    return around;
+}
+
+
+void Foam::equilibriumSolver::makeMatrix(const label component)
+{
+    const label each = component < 0 ? mesh_.dim() : 1;
+    const label rows = each*label(mesh_.owned().count());
+    Mat& A = petsc_->matrices[component < 0 ? 0 : component];
+    const scalarField around(nodesAround());
+    List<PetscInt> inside(rows), outside(rows);
     label row = 0;
-    forAll(here, node)
+    forAll(around, node)
     {
         if (mesh_.owned().test(node))
         {
+            const PetscInt most(each*around[node]);
             for (label k = 0; k < each; ++k)
             {
-                inside[row] =
-                    min(PetscInt(each*everywhere[node]), PetscInt(rows));
-                outside[row++] =
-                    Pstream::parRun() ? PetscInt(each*everywhere[node]) : 0;
+                inside[row] = min(most, PetscInt(rows));
+                outside[row++] = Pstream::parRun() ? most : 0;
             }
         }
     }
-
     check(MatCreate(PETSC_COMM_WORLD, &A));
     check(MatSetSizes(A, rows, rows, PETSC_DECIDE, PETSC_DECIDE));
     check(MatSetBlockSize(A, each));
@@ -98,109 +204,55 @@ void Foam::equilibriumSolver::assemble
     check(MatMPIAIJSetPreallocation(A, 0, inside.cdata(), 0, outside.cdata()));
     check(MatSetOption(A, MAT_SYMMETRIC, PETSC_TRUE));
     check(MatSetOption(A, MAT_SPD, PETSC_TRUE));
+}
 
-    // Projections on the components that are free, of nodes that are held
-    labelList heldIndex(mesh_.size(), -1);
-    forAll(walls_.constrainedNodes(), i)
-    {
-        heldIndex[walls_.constrainedNodes()[i]] = i;
-    }
-    const auto freed = [&](const label node, tensor& P)
-    {
-        P = tensor::I;
-        const label i = heldIndex[node];
-        for (label k = 0; i >= 0 && k < walls_.directions()[i]; ++k)
-        {
-            const scalar* e = walls_.basis().cdata() + dim*dim*i + dim*k;
-            const vector n(e[0], e[1], dim == 3 ? e[2] : 0);
-            P -= n*n;
-        }
-        return i >= 0;
-    };
 
-    const scalar lambda = lambda_, G = shear_;
+void Foam::equilibriumSolver::addMedium
+(
+    const elementMesh::shapes& reference,
+    const label component
+)
+{
+    Mat& A = petsc_->matrices[component < 0 ? 0 : component];
+    const freeComponents freed(mesh_, walls_);
     const label r = mesh_.radial();
     List<PetscInt> indices;
     List<PetscScalar> values;
-    List<tensor> projections;
+    List<tensor> P;
     List<bool> held;
 
     mesh_.each([&](const auto& e)
     {
         constexpr label dim = std::decay<decltype(e)>::type::dim;
         const label n = e.size();
-        const scalar V = reference.volume[e.cell];
         const scalar* B = reference.gradient.cdata() + dim*e.start;
         const scalar* hoop =
             r < 0 ? nullptr : reference.hoop.cdata() + e.start;
         const scalar s =
-            unfitted_*G*mesh_.stabilisationScale(e.cell, reference);
+            unfitted_*shear_*mesh_.stabilisationScale(e.cell, reference);
         indices.resize(max(indices.size(), n));
         values.resize(max(values.size(), n*dim*n*dim));
-        projections.resize(max(projections.size(), n));
-        held.resize(projections.size());
+        P.resize(max(P.size(), n));
+        held.resize(P.size());
         for (label a = 0; a < n; ++a)
         {
             indices[a] = number_[e.nodes[a]];
-            held[a] = freed(e.nodes[a], projections[a]);
+            held[a] = freed.find(e.nodes[a], P[a]);
         }
         for (label a = 0; a < n; ++a)
         {
             for (label b = 0; b < n; ++b)
             {
-                const scalar* Ba = B + dim*a;
-                const scalar* Bb = B + dim*b;
-                scalar K[dim][dim], both = 0;
-                for (label k = 0; k < dim; ++k)
-                {
-                    both += Ba[k]*Bb[k];
-                }
-                const scalar diagonal =
-                    V*G*both + s*mesh_.stabilisation(e, a, b);
-                for (label i = 0; i < dim; ++i)
-                {
-                    for (label j = 0; j < dim; ++j)
-                    {
-                        K[i][j] =
-                            V*(lambda*Ba[i]*Bb[j] + G*Ba[j]*Bb[i])
-                          + (i == j ? diagonal : 0);
-                        if (hoop)
-                        {
-                            K[i][j] +=
-                                V
-                               *(
-                                    lambda*(j == r)*Ba[i]*hoop[b]
-                                  + lambda*(i == r)*hoop[a]*Bb[j]
-                                  + (lambda + 2*G)*(i == r)*(j == r)
-                                   *hoop[a]*hoop[b]
-                                );
-                        }
-                    }
-                }
+                scalar K[dim][dim];
+                setStiffness<dim>
+                (
+                    K, B + dim*a, B + dim*b, hoop ? hoop + a : nullptr,
+                    hoop ? hoop + b : nullptr, r, reference.volume[e.cell],
+                    lambda_, shear_, s*mesh_.stabilisation(e, a, b)
+                );
                 if (held[a] || held[b])
                 {
-                    scalar part[dim][dim] = {};
-                    for (label i = 0; i < dim; ++i)
-                    {
-                        for (label j = 0; j < dim; ++j)
-                        {
-                            for (label k = 0; k < dim; ++k)
-                            {
-                                part[i][j] += projections[a](i, k)*K[k][j];
-                            }
-                        }
-                    }
-                    for (label i = 0; i < dim; ++i)
-                    {
-                        for (label j = 0; j < dim; ++j)
-                        {
-                            K[i][j] = 0;
-                            for (label k = 0; k < dim; ++k)
-                            {
-                                K[i][j] += part[i][k]*projections[b](k, j);
-                            }
-                        }
-                    }
+                    project<dim>(K, P[a], P[b]);
                 }
                 if (component >= 0)
                 {
@@ -216,64 +268,62 @@ void Foam::equilibriumSolver::assemble
                 }
             }
         }
+        const auto set = component < 0 ? MatSetValuesBlocked : MatSetValues;
         check
         (
-            component < 0
-          ? MatSetValuesBlocked
-            (
-                A, n, indices.cdata(), n, indices.cdata(), values.cdata(),
-                ADD_VALUES
-            )
-          : MatSetValues
+            set
             (
                 A, n, indices.cdata(), n, indices.cdata(), values.cdata(),
                 ADD_VALUES
             )
         );
     });
+}
 
-    // Friction; and components that walls hold, with a diagonal of the size of
-    // the others
+
+void Foam::equilibriumSolver::addWalls(const label component)
+{
+    Mat& A = petsc_->matrices[component < 0 ? 0 : component];
+    const label dim = mesh_.dim();
+    const freeComponents freed(mesh_, walls_);
     const auto add = [&](const label node, const tensor& more)
     {
         if (!mesh_.owned().test(node))
         {
             return;
         }
-        const PetscInt index = number_[node];
+        const label index = number_[node];
+        const auto set = [&](const label row, const label column, const scalar x)
+        {
+            check(MatSetValue(A, row, column, x, ADD_VALUES));
+        };
+        if (component >= 0)
+        {
+            set(index, index, more(component, component));
+            return;
+        }
         for (label i = 0; i < dim; ++i)
         {
             for (label j = 0; j < dim; ++j)
             {
-                if (component < 0)
-                {
-                    check
-                    (
-                        MatSetValue
-                        (
-                            A, dim*index + i, dim*index + j, more(i, j),
-                            ADD_VALUES
-                        )
-                    );
-                }
-                else if (i == component && j == component)
-                {
-                    check(MatSetValue(A, index, index, more(i, j), ADD_VALUES));
-                }
+                set(dim*index + i, dim*index + j, more(i, j));
             }
         }
     };
-    walls_.forEachTangentialStiffness([&](const label node, const scalar* t, const scalar k)
-    {
-        tensor P;
-        freed(node, P);
-        const vector along(P & vector(t[0], t[1], dim == 3 ? t[2] : 0));
-        add(node, k*(along*along));
-    });
+    walls_.forEachTangentialStiffness
+    (
+        [&](const label node, const scalar* t, const scalar k)
+        {
+            tensor P;
+            freed.find(node, P);
+            const vector along(P & vector(t[0], t[1], dim == 3 ? t[2] : 0));
+            add(node, k*(along*along));
+        }
+    );
     for (const label node : walls_.constrainedNodes())
     {
         tensor P;
-        freed(node, P);
+        freed.find(node, P);
         scalar size = 0;
         for (label k = 0; k < dim; ++k)
         {
@@ -281,6 +331,19 @@ void Foam::equilibriumSolver::assemble
         }
         add(node, size*(tensor::I - P));
     }
+}
+
+
+void Foam::equilibriumSolver::assemble
+(
+    const elementMesh::shapes& reference,
+    const label component
+)
+{
+    makeMatrix(component);
+    addMedium(reference, component);
+    addWalls(component);
+    Mat& A = petsc_->matrices[component < 0 ? 0 : component];
     check(MatAssemblyBegin(A, MAT_FINAL_ASSEMBLY));
     check(MatAssemblyEnd(A, MAT_FINAL_ASSEMBLY));
 }

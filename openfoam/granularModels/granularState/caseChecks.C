@@ -19,6 +19,7 @@ License
 #include "IFstream.H"
 
 #include <cerrno>
+#include <cmath>
 #include <cstring>
 #include <sstream>
 #include <unistd.h>
@@ -221,6 +222,36 @@ void Foam::checkTemperature(const volScalarField& T)
             << " source of constant/fvOptions or a time step that is too large"
             << " has cooled it. The fields of this time are written"
             << exit(FatalError);
+    }
+}
+
+
+void Foam::checkField
+(
+    const volScalarField& field,
+    const dimensionSet& dims,
+    const scalar low,
+    const scalar high
+)
+{
+    if (field.dimensions() != dims)
+    {
+        FatalErrorInFunction
+            << "Field " << field.name() << " in " << field.objectPath()
+            << " has dimensions " << field.dimensions() << ", allowed: "
+            << dims << exit(FatalError);
+    }
+    forAll(field, celli)
+    {
+        const scalar value = field[celli];
+        if (!std::isfinite(value) || value <= low || value >= high)
+        {
+            FatalErrorInFunction
+                << "Field " << field.name() << " in " << field.objectPath()
+                << " is " << value << " in cell " << celli
+                << ", allowed: between " << low << " and " << high
+                << exit(FatalError);
+        }
     }
 }
 

@@ -381,34 +381,4 @@ void Foam::granularState::extrapolateTemperature(scalarField& T) const
     }
 }
 
-
-int64_t Foam::granularState::asked() const
-{
-    return returnReduce(rowsAsked_, sumOp<int64_t>());
-}
-
-
-int64_t Foam::granularState::cellSteps() const
-{
-    return returnReduce(cellSteps_, sumOp<int64_t>());
-}
-
-
-Foam::granularModel::counters Foam::granularState::modelCounts() const
-{
-    granularModel::counters all(model_->count());
-    for (auto& item : all)
-    {
-        item.second = returnReduce(item.second, sumOp<int64_t>());
-    }
-    return all;
-}
-
-
-int64_t Foam::granularState::clampedQueries() const
-{
-    return returnReduce(clamped_, sumOp<int64_t>());
-}
-
-
 // ************************************************************************* //

@@ -15,6 +15,7 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "granularState.H"
+#include "OStringStream.H"
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
@@ -128,6 +129,33 @@ void Foam::granularState::acceptTrial()
     }
     tried_.swap(accepted_);
     moved_ = true;
+}
+
+
+Foam::string Foam::granularState::describe(const label celli) const
+{
+    // Columns after the first two belong to a law's inner state: a law of
+    // spheres has two dozen
+    const label row = proposed_ ? rows_.find(celli) : -1;
+    OStringStream text;
+    for (label i = 0; i < min(state_.size(), label(2)); ++i)
+    {
+        text<< state_[i].name() << ' '
+            << (
+                moved_ ? accepted_.state.values[i][celli]
+              : row >= 0 ? asked_.state.values[i][row]
+              : state_[i][celli]
+               )
+            << ", ";
+    }
+    text<< "stress (" << (model_->isThreeDimensional() ? "xx yy zz xy xz yz" : "xx yy xy")
+        << ", tension positive)";
+    for (const scalarField& column : endStress())
+    {
+        text<< ' ' << 0 + column[celli];
+    }
+    text<< " Pa";
+    return text.str();
 }
 
 

@@ -14,7 +14,7 @@ License
     any later version. It comes without any warranty: see the file LICENSE.
 \*---------------------------------------------------------------------------*/
 
-#include "granularState.H"
+#include "grainFields.H"
 #include "resistingWall.H"
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
@@ -34,7 +34,7 @@ static bool resists(const fvPatchScalarField& patch)
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-void Foam::granularState::findWalls(const volScalarField& T)
+void Foam::grainFields::findWalls(const volScalarField& T)
 {
     for (const fvPatchScalarField& patch : T.boundaryField())
     {
@@ -58,7 +58,7 @@ void Foam::granularState::findWalls(const volScalarField& T)
 }
 
 
-void Foam::granularState::reportWalls(const volScalarField& T) const
+void Foam::grainFields::reportWalls(const volScalarField& T) const
 {
     wordList without;
     for (label i = 0; i < mesh_.boundaryMesh().nNonProcessor(); ++i)
@@ -88,7 +88,7 @@ void Foam::granularState::reportWalls(const volScalarField& T) const
 }
 
 
-void Foam::granularState::setWallResistance
+void Foam::grainFields::setWallResistance
 (
     const symmTensorField& K,
     const stressColumns& sigma
@@ -114,7 +114,7 @@ void Foam::granularState::setWallResistance
 }
 
 
-void Foam::granularState::atWall
+void Foam::grainFields::atWall
 (
     const label patchi,
     const scalarField& T,
@@ -154,7 +154,7 @@ void Foam::granularState::atWall
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
-void Foam::granularState::atWall
+void Foam::grainFields::atWall
 (
     const label patchi,
     const scalarField& T,

@@ -14,7 +14,7 @@ License
     any later version. It comes without any warranty: see the file LICENSE.
 \*---------------------------------------------------------------------------*/
 
-#include "granularState.H"
+#include "grainFields.H"
 #include "caseChecks.H"
 #include "extrapolatedCalculatedFvPatchFields.H"
 #include "stringListOps.H"
@@ -22,7 +22,7 @@ License
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-void Foam::granularState::findReaders()
+void Foam::grainFields::findReaders()
 {
     // Fields that are computed only on output. A function object that lists
     // its fields, and lists none of these, needs no update in every step; the
@@ -81,7 +81,7 @@ void Foam::granularState::findReaders()
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
-Foam::tmp<Foam::scalarField> Foam::granularState::presentPressure() const
+Foam::tmp<Foam::scalarField> Foam::grainFields::presentPressure() const
 {
     const bool spatial = model_->isThreeDimensional();
     tmp<scalarField> result(new scalarField(mesh_.nCells()));
@@ -105,7 +105,7 @@ Foam::tmp<Foam::scalarField> Foam::granularState::presentPressure() const
 }
 
 
-void Foam::granularState::see(const volScalarField& T, const scalar source)
+void Foam::grainFields::see(const volScalarField& T, const scalar source)
 {
     runCourse& course = record_.course;
     const auto see = [&](const runCourse::quantity q, const scalarField& values)
@@ -152,7 +152,7 @@ void Foam::granularState::see(const volScalarField& T, const scalar source)
 }
 
 
-void Foam::granularState::refresh()
+void Foam::grainFields::refresh()
 {
     if (followers_)
     {
@@ -194,51 +194,7 @@ void Foam::granularState::refresh()
 }
 
 
-void Foam::granularState::finishStep()
-{
-    const bool writes = mesh_.time().writeTime();
-
-    policy_.accept();
-    if (writes || refreshAlways_)
-    {
-        refresh();
-    }
-    if (writes)
-    {
-        findSpread();
-        checkTemperature(mesh_.lookupObject<volScalarField>("T"));
-    }
-}
-
-
-Foam::string Foam::granularState::describe(const label celli) const
-{
-    // Columns after the first two belong to a law's inner state: a law of
-    // spheres has two dozen
-    const label row = proposed_ ? rows_.find(celli) : -1;
-    OStringStream text;
-    for (label i = 0; i < min(state_.size(), label(2)); ++i)
-    {
-        text<< state_[i].name() << ' '
-            << (
-                moved_ ? accepted_.state.values[i][celli]
-              : row >= 0 ? asked_.state.values[i][row]
-              : state_[i][celli]
-               )
-            << ", ";
-    }
-    text<< "stress (" << (model_->isThreeDimensional() ? "xx yy zz xy xz yz" : "xx yy xy")
-        << ", tension positive)";
-    for (const scalarField& column : endStress())
-    {
-        text<< ' ' << 0 + column[celli];
-    }
-    text<< " Pa";
-    return text.str();
-}
-
-
-void Foam::granularState::findSpread()
+void Foam::grainFields::findSpread()
 {
     List<const scalar*> state(state_.size());
     forAll(state, i)
@@ -248,7 +204,8 @@ void Foam::granularState::findSpread()
     granularModel::query query;
     query.size = mesh_.nCells();
     query.state = state.cdata();
-    query.strain = zero_.cdata();
+    const scalarField none(mesh_.nCells(), Zero);
+    query.strain = none.cdata();
 
     scalarField spread(mesh_.nCells(), Zero);
     if (!returnReduce(model_->spread(query, spread), andOp<bool>()))
@@ -273,35 +230,7 @@ void Foam::granularState::findSpread()
 }
 
 
-void Foam::granularState::writeReport() const
-{
-    const scalarField& waiting = thermalStrainIncrement_.primitiveField();
-
-    Info<< "Surrogate model: " << model_->source() << ", SHA-256 "
-        << string(model_->hash()) << ", library "
-        << string(granularModel::libraryVersion()) << nl
-        << "Queries: " << queries_ << nl
-        << "Cells evaluated: " << asked() << " of " << cellSteps()
-        << " (cells times steps)" << nl
-        << "Clamped cell-queries: " << clampedQueries() << nl;
-    for (const auto& item : modelCounts())
-    {
-        // Parts of a number that is printed, too
-        if (item.second || item.first.find("_by_") == std::string::npos)
-        {
-            Info<< item.first.c_str() << ": " << item.second << nl;
-        }
-    }
-    if (bound_ > 0)
-    {
-        Info<< "Strain not given to the model yet, with the last step: at most "
-            << gMax(mag(waiting)()) << ", bound " << bound_ << nl;
-    }
-    policy_.write();
-}
-
-
-Foam::label Foam::granularState::cellsOutside() const
+Foam::label Foam::grainFields::cellsOutside() const
 {
     label outside = 0;
     for (const scalar inside : inTrainingRange_.primitiveField())
@@ -312,25 +241,25 @@ Foam::label Foam::granularState::cellsOutside() const
 }
 
 
-Foam::scalarField Foam::granularState::mass() const
+Foam::scalarField Foam::grainFields::mass() const
 {
     return bulkDensity_.primitiveField()*mesh_.V().field();
 }
 
 
-Foam::scalar Foam::granularState::storedHeat(const volScalarField& T) const
+Foam::scalar Foam::grainFields::storedHeat(const volScalarField& T) const
 {
     return properties_.storedHeat(mass(), T, initialTemperature_);
 }
 
 
-Foam::scalar Foam::granularState::initialHeat() const
+Foam::scalar Foam::grainFields::initialHeat() const
 {
     return properties_.heldHeat(mass(), initialTemperature_);
 }
 
 
-Foam::scalar Foam::granularState::meanSpread()
+Foam::scalar Foam::grainFields::meanSpread()
 {
     findSpread();
     return spread_.valid()

@@ -14,7 +14,7 @@ License
     any later version. It comes without any warranty: see the file LICENSE.
 \*---------------------------------------------------------------------------*/
 
-#include "granularState.H"
+#include "grainFields.H"
 #include "wallConditions.H"
 #include "fvMatrices.H"
 #include "laplacianScheme.H"
@@ -120,7 +120,7 @@ static tmp<vectorField> shearWithin
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-Foam::List<Foam::scalarField> Foam::granularState::sideFriction
+Foam::List<Foam::scalarField> Foam::grainFields::sideFriction
 (
     const vector& up
 ) const
@@ -152,7 +152,7 @@ Foam::List<Foam::scalarField> Foam::granularState::sideFriction
 }
 
 
-Foam::tmp<Foam::symmTensorField> Foam::granularState::restStress()
+Foam::tmp<Foam::symmTensorField> Foam::grainFields::restStress()
 {
     const dictionary dict(properties_.restStressDict());
     restKeys.check(dict);

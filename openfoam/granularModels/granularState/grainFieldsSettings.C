@@ -14,7 +14,7 @@ License
     any later version. It comes without any warranty: see the file LICENSE.
 \*---------------------------------------------------------------------------*/
 
-#include "granularState.H"
+#include "grainFields.H"
 #include "OStringStream.H"
 #include "SHA1.H"
 
@@ -94,7 +94,7 @@ static string shown(const temperatureFunction& f)
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-Foam::dictionary Foam::granularState::settings() const
+Foam::dictionary Foam::grainFields::settings() const
 {
     const dictionary& surrogate = properties_.surrogateDict();
     const word type(surrogate.get<word>("type"));
