@@ -188,31 +188,28 @@ void Foam::caseWarnings::checkWallKeys()
 }
 
 
-void Foam::caseWarnings::checkSides()
+Foam::vector Foam::caseWarnings::loadDirection() const
 {
-    const scalar g = mag(properties_.gravity());
-    if (!grains_.model().isThreeDimensional() || mechanics_.type() == "none")
-    {
-        return;
-    }
     // The load acts along gravity, else along the normal of a piston
     const dictionary rules(wallRules(properties_));
     vector along(properties_.gravity());
-    // Patches between processes come last, and are not walls
-    const label patches = mesh_.boundaryMesh().nNonProcessor();
-    for (label patchi = 0; patchi < patches; ++patchi)
+    for (label patchi = 0; patchi < mesh_.boundaryMesh().nNonProcessor(); ++patchi)
     {
         const polyPatch& patch = mesh_.boundaryMesh()[patchi];
-        if (g <= VSMALL && isLid(rules, patch))
+        if (mag(properties_.gravity()) <= VSMALL && isLid(rules, patch))
         {
             along = returnReduce(sum(patch.faceAreas()), sumOp<vector>());
         }
     }
-    if (mag(along) <= VSMALL)
-    {
-        return;
-    }
-    along /= mag(along);
+    return along/max(mag(along), VSMALL);
+}
+
+
+bool Foam::caseWarnings::hasSmoothSides(const vector& along, string& names) const
+{
+    const dictionary rules(wallRules(properties_));
+    // Patches between processes come last, and are not walls
+    const label patches = mesh_.boundaryMesh().nNonProcessor();
     scalar smooth = 0, sides = 0;
     DynamicList<scalar> areas;
     DynamicList<word> smoothNames;
@@ -238,13 +235,29 @@ void Foam::caseWarnings::checkSides()
             smoothNames.append(patch.name());
         }
     }
-    string names;
     forAll(areas, i)
     {
         if (areas[i] > smallSide*smooth)
         {
             names += (names.empty() ? "" : ", ") + smoothNames[i];
         }
+    }
+    return smooth > mostlySmooth*sides;
+}
+
+
+void Foam::caseWarnings::checkSides()
+{
+    const scalar g = mag(properties_.gravity());
+    if (!grains_.model().isThreeDimensional() || mechanics_.type() == "none")
+    {
+        return;
+    }
+    const vector along(loadDirection());
+    string names;
+    if (mag(along) <= SMALL || !hasSmoothSides(along, names))
+    {
+        return;
     }
     // Lengths along the load and across it
     const vector distances(wallDistances(mesh_));
@@ -260,7 +273,7 @@ void Foam::caseWarnings::checkSides()
             width = min(width, distances[i]);
         }
     }
-    if (!(smooth > mostlySmooth*sides && height > tallBed*width))
+    if (!(height > tallBed*width))
     {
         return;
     }

@@ -113,7 +113,7 @@ public:
 };
 
 
-int main(int argc, char *argv[])
+static void addOptions()
 {
     argList::addNote
     (
@@ -144,6 +144,70 @@ int main(int argc, char *argv[])
         " and list every error and warning; nothing is written. The exit status"
         " is 1 with errors, else 0"
     );
+}
+
+
+//- Run the case to its end
+static void runCase
+(
+    Time& runTime,
+    solverObjects& made,
+    const clockTime& wallClock
+)
+{
+    made.makeAll();
+    volScalarField& T = made.T();
+    granularState& grains = made.grains();
+    granularMechanics& mechanics = made.mechanics();
+    timeScheme& scheme = made.scheme();
+    const runSummary summary(made.properties(), T, grains, mechanics, wallClock);
+    grains.record().findFiles();
+    const caseWarnings warnings(made.properties(), T, grains, mechanics);
+    warnings.print();
+
+    stepWatch watch(scheme.waitLimit());
+    runTables tables(runTime, !grains.record().continues);
+    runResults results(T, grains);
+
+    Info<< "\nStarting time loop\n" << endl;
+
+    while (runTime.run())
+    {
+        tables.update();
+        results.begin();
+        scheme.step();
+        results.update();
+        grains.finishStep();
+        if (runTime.writeTime())
+        {
+            stepWatch::doing("the output");
+            if (!runTime.write())
+            {
+                FatalErrorInFunction
+                    << "Cannot write " << runTime.timePath()
+                    << ". Is the disk full?" << exit(FatalError);
+            }
+            grains.record().writeLast();
+        }
+        watch.finished();
+    }
+    tables.update();
+
+    grains.refresh();
+    grains.writeReport();
+    mechanics.writeReport();
+    made.neighbours->report();
+    summary.write
+    (
+        results, scheme.rejected(), warnings.all(), made.neighbours->warning(),
+        scheme.flow()
+    );
+}
+
+
+int main(int argc, char *argv[])
+{
+    addOptions();
 
     const clockTime wallClock;
 
@@ -192,53 +256,7 @@ int main(int argc, char *argv[])
     Sout.precision(6);
 
     solverObjects made(runTime);
-    made.makeAll();
-    volScalarField& T = made.T();
-    granularState& grains = made.grains();
-    granularMechanics& mechanics = made.mechanics();
-    timeScheme& scheme = made.scheme();
-    const runSummary summary(made.properties(), T, grains, mechanics, wallClock);
-    grains.record().findFiles();
-    const caseWarnings warnings(made.properties(), T, grains, mechanics);
-    warnings.print();
-
-    stepWatch watch(scheme.waitLimit());
-    runTables tables(runTime, !grains.record().continues);
-    runResults results(T, grains);
-
-    Info<< "\nStarting time loop\n" << endl;
-
-    while (runTime.run())
-    {
-        tables.update();
-        results.begin();
-        scheme.step();
-        results.update();
-        grains.finishStep();
-        if (runTime.writeTime())
-        {
-            stepWatch::doing("the output");
-            if (!runTime.write())
-            {
-                FatalErrorInFunction
-                    << "Cannot write " << runTime.timePath()
-                    << ". Is the disk full?" << exit(FatalError);
-            }
-            grains.record().writeLast();
-        }
-        watch.finished();
-    }
-    tables.update();
-
-    grains.refresh();
-    grains.writeReport();
-    mechanics.writeReport();
-    made.neighbours->report();
-    summary.write
-    (
-        results, scheme.rejected(), warnings.all(), made.neighbours->warning(),
-        scheme.flow()
-    );
+    runCase(runTime, made, wallClock);
 
     Info<< "End\n" << endl;
 

@@ -211,6 +211,56 @@ void Foam::granularFlows::pressure::findGradient()
 }
 
 
+void Foam::granularFlows::pressure::setPresent
+(
+    const label patchi,
+    const scalarField& psi,
+    const List<side>* beyond
+)
+{
+    const surfaceScalarField& delta = mesh_.nonOrthDeltaCoeffs();
+    const surfaceVectorField& skew = mesh_.nonOrthCorrectionVectors();
+    const surfaceScalarField& w = mesh_.weights();
+    const fvPatch& patch = mesh_.boundary()[patchi];
+    const labelUList& cells = patch.faceCells();
+    const vectorField normals(patch.nf());
+    forAll(cells, facei)
+    {
+        const label P = cells[facei];
+        scalar length = 1/delta.boundaryField()[patchi][facei], here = length;
+        vector along(length*skew.boundaryField()[patchi][facei]);
+        side n;
+        if (beyond)
+        {
+            here = (1 - w.boundaryField()[patchi][facei])*length;
+            n = (*beyond)[facei];
+            n.length = length - here;
+        }
+        else
+        {
+            const vector d(patch.Cf()[facei] - mesh_.C()[P]);
+            here = normals[facei] & d;
+            along = here*normals[facei] - d;
+        }
+        const side p(sideOf(P, here));
+        scalar slope;
+        const scalar G =
+            linearised
+            (
+                &p, beyond ? &n : nullptr, normals[facei], along,
+                psi_[P] - psi[facei],
+                flux_.boundaryField()[patchi][facei]/patch.magSf()[facei],
+                thermal_.boundaryField()[patchi][facei]
+               /patch.magSf()[facei],
+                slope
+            );
+        present_.boundaryFieldRef()[patchi][facei] = patch.magSf()[facei]*G;
+        slope_.boundaryFieldRef()[patchi][facei] =
+            patch.magSf()[facei]*slope;
+    }
+}
+
+
 void Foam::granularFlows::pressure::setPresent()
 {
     const bool compressible = gas_.compressible();
@@ -269,51 +319,6 @@ void Foam::granularFlows::pressure::setPresent()
         );
     }
     reduce(rounding_, maxOp<scalar>());
-    const auto patchFaces = [&]
-    (
-        const label patchi,
-        const scalarField& psi,
-        const List<side>* beyond
-    )
-    {
-        const fvPatch& patch = mesh_.boundary()[patchi];
-        const labelUList& cells = patch.faceCells();
-        const vectorField normals(patch.nf());
-        forAll(cells, facei)
-        {
-            const label P = cells[facei];
-            scalar length = 1/delta.boundaryField()[patchi][facei], here = length;
-            vector along(length*skew.boundaryField()[patchi][facei]);
-            side n;
-            if (beyond)
-            {
-                here = (1 - w.boundaryField()[patchi][facei])*length;
-                n = (*beyond)[facei];
-                n.length = length - here;
-            }
-            else
-            {
-                const vector d(patch.Cf()[facei] - mesh_.C()[P]);
-                here = normals[facei] & d;
-                along = here*normals[facei] - d;
-            }
-            const side p(sideOf(P, here));
-            scalar slope;
-            const scalar G =
-                linearised
-                (
-                    &p, beyond ? &n : nullptr, normals[facei], along,
-                    psi_[P] - psi[facei],
-                    flux_.boundaryField()[patchi][facei]/patch.magSf()[facei],
-                    thermal_.boundaryField()[patchi][facei]
-                   /patch.magSf()[facei],
-                    slope
-                );
-            presentBf[patchi][facei] = patch.magSf()[facei]*G;
-            slopeBf[patchi][facei] =
-                patch.magSf()[facei]*slope;
-        }
-    };
     forAll(mesh_.boundary(), patchi)
     {
         if (mesh_.boundary()[patchi].coupled())
@@ -323,7 +328,7 @@ void Foam::granularFlows::pressure::setPresent()
             (
                 psi_.boundaryField()[patchi].patchNeighbourField()
             );
-            patchFaces(patchi, psi, &beyond);
+            setPresent(patchi, psi, &beyond);
         }
     }
     forAll(openings_, i)
@@ -335,7 +340,7 @@ void Foam::granularFlows::pressure::setPresent()
             slopeBf[patchi] = 0;
             continue;
         }
-        patchFaces(patchi, psiOf(i), nullptr);
+        setPresent(patchi, psiOf(i), nullptr);
     }
 }
 

@@ -98,37 +98,19 @@ static List<vector> convexWays
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-void Foam::wallConditions::findCurvature()
+void Foam::wallConditions::sumTurns
+(
+    const smoothWalls& walls,
+    const labelList& wallOf,
+    List<FixedList<vector, 2>>& along,
+    List<FixedList<scalar, 7>>& sums
+) const
 {
-    if (mesh_.radial() >= 0)
-    {
-        return;
-    }
     const label dim = mesh_.dim();
-    const smoothWalls walls
-    (
-        mesh_,
-        chosen([](const wall& w)
-        {
-            return
-                (w.holdsAcross() || w.stiffness > 0)
-             && !w.displacement.valid();
-        })
-    );
-    // Nodes of one wall alone. Rims could turn, too, but are few compared with the
-    // nodes within the wall, whose resistance has a factor above 1
-    labelList wallOf(mesh_.size(), -1);
-    for (label i = 0; i < walls.size(); ++i)
-    {
-        label& wall = wallOf[walls.node(i)];
-        wall = wall == -1 ? i : -2;
-    }
     // Over the faces around a node: area times the squares of the ways along the
     // wall from the node to the face, and times the change of the normal on
     // these ways
     const label ways = dim - 1, count = ways*(ways + 1)/2 + ways*ways;
-    List<FixedList<vector, 2>> along(mesh_.size());
-    List<FixedList<scalar, 7>> sums(mesh_.size(), FixedList<scalar, 7>(Zero));
     forAll(walls_, patchi)
     {
         const elementMesh::wallFaces& faces = mesh_.wall(patchi);
@@ -181,6 +163,38 @@ void Foam::wallConditions::findCurvature()
             sums[node][k] = part[node];
         }
     }
+}
+
+
+void Foam::wallConditions::findCurvature()
+{
+    if (mesh_.radial() >= 0)
+    {
+        return;
+    }
+    const label dim = mesh_.dim();
+    const smoothWalls walls
+    (
+        mesh_,
+        chosen([](const wall& w)
+        {
+            return
+                (w.holdsAcross() || w.stiffness > 0)
+             && !w.displacement.valid();
+        })
+    );
+    // Nodes of one wall alone. Rims could turn, too, but are few compared with the
+    // nodes within the wall, whose resistance has a factor above 1
+    labelList wallOf(mesh_.size(), -1);
+    for (label i = 0; i < walls.size(); ++i)
+    {
+        label& wall = wallOf[walls.node(i)];
+        wall = wall == -1 ? i : -2;
+    }
+    const label ways = dim - 1;
+    List<FixedList<vector, 2>> along(mesh_.size());
+    List<FixedList<scalar, 7>> sums(mesh_.size(), FixedList<scalar, 7>(Zero));
+    sumTurns(walls, wallOf, along, sums);
     DynamicList<label> nodes;
     DynamicList<scalar> tangent, bend;
     for (label i = 0; i < walls.size(); ++i)
