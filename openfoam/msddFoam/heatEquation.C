@@ -146,6 +146,11 @@ void Foam::heatEquation::solveBed
             faceHeat_[patchi] =
                 scalarField(patch.coupled() ? 0 : patch.size(), Zero);
         }
+        // In OpenFOAM's terms
+        //     fvm::ddt(C, T) - fvm::laplacian(K, T) == fvOptions(C, T),
+        // but with T* of the stage for the old T, with c as a function of T,
+        // and without the tensor laplacian where it only costs time (see
+        // heatConduction)
         setStorage(Tstar, tau);
         conduction_.addTo(TEqn_, faceHeat_);
         const tmp<fvScalarMatrix> S(addSources());

@@ -50,7 +50,7 @@ static scalar missingInCore(const scalar widths)
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-void Foam::granularFlows::bedFlow::extremes::reduce()
+void Foam::granularFlows::bedFlowTypes::extremes::reduce()
 {
     for (label* each : {&outsideDrag, &outsideExchange, &outsideGas})
     {
@@ -67,7 +67,7 @@ void Foam::granularFlows::bedFlow::extremes::reduce()
 }
 
 
-void Foam::granularFlows::bedFlow::extremes::extend(const extremes& now)
+void Foam::granularFlows::bedFlowTypes::extremes::extend(const extremes& now)
 {
     outsideDrag = max(outsideDrag, now.outsideDrag);
     outsideExchange = max(outsideExchange, now.outsideExchange);

@@ -20,6 +20,22 @@ License
 
 // * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
+// At a face behind a cell of length l along the flow, Tg is what the cell's
+// own equation gives, for Ts that is linear in the cell: with n = H l/(G c)
+// and b = n/(exp(n) - 1),
+//
+//     Tf = b Tg + (1 - b) Ts + (1/2 - (1 - b)/n) s,
+//
+// where s is the limited change of Ts over the cell, from the differences on
+// both sides such that Tf is exact for Ts of second degree. All weights are
+// positive: for small n it is the scheme of Lax and Wendroff, for large n the
+// upwind-biased one of third order for Ts. The storage of the gas counts as
+// exchange with the gas at the stage's start. With dispersion the scheme is
+// central as far as that is positive.
+//
+// What a cell lacks of a balance of mass (rounding, or an equation of the
+// pressure that did not converge) carries its own temperature.
+
 namespace Foam
 {
 

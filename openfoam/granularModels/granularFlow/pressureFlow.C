@@ -146,111 +146,6 @@ Foam::granularFlows::pressure::pressure
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-void Foam::granularFlows::pressure::readOpenings()
-{
-    const dictionary& all = dict_.subDict("openings");
-    label given = 0;
-    for (const entry& item : all)
-    {
-        if (!item.isDict())
-        {
-            FatalIOErrorInFunction(all)
-                << "Entry '" << item.keyword() << "' of 'openings' is no"
-                << " patch with braces, allowed: "
-                << granularProperties::listed(mesh_.boundaryMesh().names())
-                   .c_str()
-                << exit(FatalIOError);
-        }
-        const dictionary& dict = item.dict();
-        openingKeys.check(dict);
-        ports_.append(readPort(item.keyword(), dict));
-        const port& end = ports_.last();
-        const fvPatch& patch = mesh_.boundary()[end.patch];
-        if (patch.coupled() || polyPatch::constraintType(patch.type()))
-        {
-            FatalIOErrorInFunction(all)
-                << "Opening '" << end.name << "' is a patch of the type "
-                << patch.type() << ", allowed: patch, wall"
-                << exit(FatalIOError);
-        }
-        openings_.append(new opening);
-        opening& made = openings_.last();
-        for (const word key : {"massFlow", "pressure"})
-        {
-            if (dict.found(key))
-            {
-                (key == "pressure" ? made.pressure : made.massFlow) =
-                    Function1<scalar>::New(key, dict);
-            }
-        }
-        if (made.massFlow.valid() && made.pressure.valid())
-        {
-            FatalIOErrorInFunction(dict)
-                << "Entries 'massFlow' and 'pressure' of the opening "
-                << end.name << " are both given, allowed: one of them"
-                << exit(FatalIOError);
-        }
-        given += !made.massFlow.valid();
-        for (const scalar t : looks())
-        {
-            checkTemperature
-            (
-                end, t, made.massFlow.valid() ? made.massFlow->value(t) : 0
-            );
-            const scalar p =
-                made.pressure.valid() ? made.pressure->value(t) : 1;
-            if (!(p > 0))
-            {
-                FatalIOErrorInFunction(dict)
-                    << "Entry 'pressure' of the opening " << end.name << " is "
-                    << p << " at time " << t << ", allowed: > 0"
-                    << exit(FatalIOError);
-            }
-        }
-        const vector middle
-        (
-            gSum(patch.magSf()*patch.Cf())/gSum(patch.magSf())
-        );
-        made.height = (patch.Cf() - middle) & properties_.gravity();
-    }
-    if (!given && openings_.size())
-    {
-        FatalIOErrorInFunction(all)
-            << "Each of the " << openings_.size() << " openings has a massFlow,"
-            << " allowed: at least one without, whose pressure is given"
-            << exit(FatalIOError);
-    }
-}
-
-
-void Foam::granularFlows::pressure::checkParts() const
-{
-    const regionSplit parts(mesh_);
-    boolList given(parts.nRegions(), false);
-    forAll(openings_, i)
-    {
-        if (!openings_[i].massFlow.valid())
-        {
-            const fvPatch& patch = mesh_.boundary()[ports_[i].patch];
-            for (const label celli : patch.faceCells())
-            {
-                given[parts[celli]] = true;
-            }
-        }
-    }
-    Pstream::listCombineGather(given, orEqOp<bool>());
-    fromMaster(given);
-    if (given.found(false) && (given.size() > 1 || openings_.size()))
-    {
-        FatalErrorInFunction
-            << "The mesh has " << given.size() << " parts that are not"
-            << " connected, and in one of them no opening has a given pressure,"
-            << " allowed: each has such an opening, or one part without openings"
-            << exit(FatalError);
-    }
-}
-
-
 Foam::scalar Foam::granularFlows::pressure::toPsi(const scalar gauge) const
 {
     return
@@ -268,40 +163,6 @@ Foam::scalar Foam::granularFlows::pressure::toGauge(const scalar psi) const
     }
     const scalar p = gas_.pressure();
     return 2*psi/(p + std::sqrt(max(p*p + 2*psi, scalar(0))));
-}
-
-
-Foam::scalarField Foam::granularFlows::pressure::psiOf
-(
-    const label openingi
-) const
-{
-    const opening& each = openings_[openingi];
-    const scalar T = temperatureAt(ports_[openingi]);
-    const scalar p = gas_.pressure() + toGauge(each.psi);
-    const scalar rho = gas_.density(T, p);
-    return
-        each.psi + (gas_.compressible() ? p : rho)*rho*each.height;
-}
-
-
-void Foam::granularFlows::pressure::setOpenings()
-{
-    const scalar t = mesh_.time().value();
-    forAll(openings_, i)
-    {
-        opening& each = openings_[i];
-        if (each.massFlow.valid())
-        {
-            each.flow = each.massFlow->value(t);
-        }
-        else
-        {
-            each.psi =
-                each.pressure.valid()
-              ? toPsi(each.pressure->value(t) - gas_.pressure()) : 0;
-        }
-    }
 }
 
 
@@ -382,17 +243,6 @@ void Foam::granularFlows::pressure::guess()
         G -= (R*G - steepest)/(R + change);
     }
     guess_ = max(guess_, G);
-}
-
-
-Foam::scalarList Foam::granularFlows::pressure::openingPsi() const
-{
-    scalarList result(openings_.size());
-    forAll(result, i)
-    {
-        result[i] = openings_[i].psi;
-    }
-    return result;
 }
 
 
@@ -522,36 +372,6 @@ void Foam::granularFlows::pressure::findFlux(const bool first)
 }
 
 
-Foam::string Foam::granularFlows::pressure::summaryOfKind() const
-{
-    OStringStream os;
-    os.precision(12);
-    os  << ", \"openings\": {";
-    forAll(openings_, i)
-    {
-        os  << (i ? ", " : "") << string(ports_[i].name)
-            << ": {\"mass_flow\": "
-            << -gSum(flux_.boundaryField()[ports_[i].patch]) << ", \"pressure\": "
-            << pressureAt(i) << "}";
-    }
-    os  << "}, \"core_relative_flux\": ";
-    if (flows() && looseWalls_)
-    {
-        os  << relativeFluxOfCore();
-    }
-    else
-    {
-        os  << "null";
-    }
-    os  << ", \"expelled_over_entered\": "
-        << expelled_/max(entered_, VSMALL)
-        << ", \"newton_iterations\": "
-        << scalar(newton_)/max(flows_, label(1))
-        << ", \"most_newton_iterations\": " << mostNewton_;
-    return os.str();
-}
-
-
 Foam::string Foam::granularFlows::pressure::sentenceOfKind() const
 {
     OStringStream os;
@@ -590,22 +410,6 @@ Foam::string Foam::granularFlows::pressure::sentenceOfKind() const
 
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
-
-void Foam::granularFlows::pressure::addLoads(loadHistories& loads)
-{
-    for (const opening& each : openings_)
-    {
-        for (const auto* function : {&each.massFlow, &each.pressure})
-        {
-            if (function->valid())
-            {
-                loads.add((*function)());
-            }
-        }
-    }
-    bedFlow::addLoads(loads);
-}
-
 
 void Foam::granularFlows::pressure::begin()
 {

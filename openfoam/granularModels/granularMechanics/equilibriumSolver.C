@@ -302,29 +302,6 @@ Foam::equilibriumSolver::~equilibriumSolver()
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-void Foam::equilibriumSolver::findNumbers()
-{
-    const bitSet& owned = mesh_.owned();
-    const globalIndex offsets(label(owned.count()));
-    number_.resize(mesh_.size(), -1);
-    label count = 0;
-    forAll(number_, node)
-    {
-        if (owned.test(node))
-        {
-            number_[node] = offsets.toGlobal(count++);
-        }
-    }
-    if (Pstream::parRun())
-    {
-        syncTools::syncPointList
-        (
-            mesh_.mesh(), mesh_.front(), number_, maxEqOp<label>(), label(-1)
-        );
-    }
-}
-
-
 Foam::equilibriumSolver::objects& Foam::equilibriumSolver::withSolver
 (
     const bool symmetric
@@ -375,58 +352,6 @@ void Foam::equilibriumSolver::endPetsc()
         const quietArithmetic quiet;
         check(PetscFinalize());
     }
-}
-
-
-void Foam::equilibriumSolver::toVector
-(
-    const scalarField& from,
-    double* to
-) const
-{
-    const label dim = mesh_.dim();
-    if (!Pstream::parRun())
-    {
-        std::copy(from.begin(), from.end(), to);
-        return;
-    }
-    label at = 0;
-    for (label node = 0; node < mesh_.size(); ++node)
-    {
-        if (mesh_.owned().test(node))
-        {
-            for (label k = 0; k < dim; ++k)
-            {
-                to[at++] = from[dim*node + k];
-            }
-        }
-    }
-}
-
-
-void Foam::equilibriumSolver::toField
-(
-    const double* from,
-    scalarField& to
-) const
-{
-    const label dim = mesh_.dim();
-    to.resize(dim*mesh_.size());
-    if (!Pstream::parRun())
-    {
-        std::copy(from, from + to.size(), to.begin());
-        return;
-    }
-    label at = 0;
-    for (label node = 0; node < mesh_.size(); ++node)
-    {
-        const bool mine = mesh_.owned().test(node);
-        for (label k = 0; k < dim; ++k)
-        {
-            to[dim*node + k] = mine ? from[at++] : 0;
-        }
-    }
-    mesh_.sum(to);
 }
 
 

@@ -24,16 +24,10 @@ License
 namespace Foam
 {
 
-//- Uniform medium for the preconditioner: Lame's constants, divided by E r/l,
-//- with values of densely packed grains
-static const scalar uniformLambda = 0.25;
-static const scalar uniformShear = 0.3;
-
-//- Usual pressure, and usual imbalance that is accepted, of discs and of elastic
-//- solids, divided by the unit of the stiffness
+//- Usual pressure, and usual imbalance that is accepted, divided by the unit of
+//- the stiffness
 static const scalar pressureShare = 0.05;
 static const scalar grainResidual = 1e-4;
-static const scalar elasticResidual = 1e-9;
 
 //- Spheres: unit of the stiffness over E* (p/E*)^(1/3), of which packings have
 //- 0.4 to 0.55 in uniaxial compression and 0.12 to 0.17 in shear; imbalance over the mean
@@ -53,57 +47,6 @@ static const label planeOrder[] =
 {
     symmTensor::XX, symmTensor::YY, symmTensor::XY
 };
-
-//- Least ratio of a pivot to its diagonal of a cell's stiffness matrix, and
-//- factor by which the other components are reduced until it is reached
-static const scalar leastPivot = 0.05;
-static const scalar reduction = 0.8;
-
-//- The same for grains that do not slide, and their shear modulus over that of
-//- uniaxial compression
-static const scalar cautiousPivot = 0.8;
-static const scalar cautiousShear = 0.35;
-
-static const keyTable elasticKeys
-(
-    "elasticCoeffs",
-    {
-        {
-            "youngModulus", "Young's modulus of the solid", "Pa",
-            "1e-15 to 1e15", "required"
-        },
-        {
-            "poissonRatio", "its Poisson's ratio", "-", "-0.99 to 0.49999",
-            "required"
-        }
-    }
-);
-
-//- Whether all pivots of the Cholesky factorisation of a symmetric matrix exceed
-//- this share of their diagonal
-template<label N>
-static bool hasPivots(const scalar (&c)[N][N], const scalar least)
-{
-    scalar v[N][N], pivot[N];
-    for (label i = 0; i < N; ++i)
-    {
-        pivot[i] = c[i][i];
-        for (label j = 0; j < i; ++j)
-        {
-            v[i][j] = c[i][j];
-            for (label k = 0; k < j; ++k)
-            {
-                v[i][j] -= v[i][k]*v[j][k]/pivot[k];
-            }
-            pivot[i] -= sqr(v[i][j])/pivot[j];
-        }
-        if (i && !(pivot[i] > least*c[i][i]))
-        {
-            return false;
-        }
-    }
-    return true;
-}
 
 } // End namespace Foam
 
@@ -281,37 +224,6 @@ Foam::sphereLaw::sphereLaw
 {}
 
 
-Foam::elasticLaw::elasticLaw
-(
-    const dictionary& dict,
-    granularState& grains,
-    const elementMesh& mesh
-)
-:
-    stressLaw(grains, mesh),
-    mesh_(mesh),
-    own_(mesh.dim()*mesh.dim() + (mesh.radial() >= 0))
-{
-    elasticKeys.check(dict);
-    const scalar E = elasticKeys.number(dict, "youngModulus");
-    const scalar nu = elasticKeys.number(dict, "poissonRatio");
-    lambda_ = E*nu/((1 + nu)*(1 - 2*nu));
-    shear_ = 0.5*E/(1 + nu);
-    if (mesh.plane())
-    {
-        // The stress along z, which does no work
-        order_.append(symmTensor::ZZ);
-        stress_.append(scalarField(mesh.mesh().nCells(), Zero));
-    }
-    gradient_.resize(own_.size());
-    forAll(own_, i)
-    {
-        own_[i].resize(mesh.mesh().nCells(), Zero);
-        gradient_.set(i, &own_[i]);
-    }
-}
-
-
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
 void Foam::grainLaw::take()
@@ -445,80 +357,6 @@ void Foam::grainLaw::findTangent()
 }
 
 
-void Foam::grainLaw::stiffen(const label caution, const scalar leastShare)
-{
-    switch (order_.size())
-    {
-        case 3: stiffen<3>(caution, leastShare); break;
-        case 4: stiffen<4>(caution, leastShare); break;
-        default: stiffen<6>(caution, leastShare);
-    }
-}
-
-
-template<Foam::label N>
-void Foam::grainLaw::stiffen(const label caution, const scalar leastShare)
-{
-    const scalar least = leastShare*scale_;
-    const scalar leastRatio = caution > 1 ? cautiousPivot : leastPivot;
-    const scalar factor = caution > 1 ? std::pow(2.0, caution - 2) : 1;
-    bool normal[N];
-    for (label i = 0; i < N; ++i)
-    {
-        const label k = order_[i];
-        normal[i] =
-            k == symmTensor::XX || k == symmTensor::YY || k == symmTensor::ZZ;
-    }
-
-    forAll(tangent_[0], celli)
-    {
-        scalar c[N][N];
-        for (label k = 0; k < N*N; ++k)
-        {
-            c[k/N][k % N] = tangent_[k][celli];
-        }
-        scalar most = 0;
-        for (label i = 0; i < N; ++i)
-        {
-            c[i][i] = max(c[i][i], normal[i] ? least : 0.5*least);
-            most = normal[i] ? max(most, c[i][i]) : most;
-        }
-        if (caution)
-        {
-            // A matrix that is symmetric and positive
-            for (label i = 0; i < N; ++i)
-            {
-                for (label j = 0; j < i; ++j)
-                {
-                    c[i][j] = c[j][i] = 0.5*(c[i][j] + c[j][i]);
-                }
-            }
-            for (label i = 0; caution > 1 && i < N; ++i)
-            {
-                c[i][i] =
-                    normal[i]
-                  ? factor*most
-                  : max(factor*c[i][i], cautiousShear*factor*most);
-            }
-            for (label k = 0; k < 20 && !hasPivots(c, leastRatio); ++k)
-            {
-                for (label i = 0; i < N; ++i)
-                {
-                    for (label j = 0; j < N; ++j)
-                    {
-                        c[i][j] *= i == j ? 1 : reduction;
-                    }
-                }
-            }
-        }
-        for (label k = 0; k < N*N; ++k)
-        {
-            tangent_[k][celli] = c[k/N][k % N];
-        }
-    }
-}
-
-
 Foam::scalar Foam::grainLaw::residual() const
 {
     return grainResidual*scale_;
@@ -548,81 +386,6 @@ void Foam::sphereLaw::begin(const volSymmTensorField& initialStress)
 Foam::tmp<Foam::volSymmTensorField> Foam::grainLaw::initialStress() const
 {
     return tmp<volSymmTensorField>::New(grains_.stress());
-}
-
-
-Foam::scalar Foam::elasticLaw::scale() const
-{
-    return shear_/uniformShear;
-}
-
-
-Foam::scalar Foam::elasticLaw::residual() const
-{
-    return elasticResidual*scale();
-}
-
-
-void Foam::elasticLaw::find(const bool)
-{
-    const scalarField& thermal = grains_.thermalStrain().primitiveField();
-    const bool solid = mesh_.dim() == 3;
-    const label radial = mesh_.radial();
-
-    forAll(thermal, celli)
-    {
-        tensor F(tensor::I);
-        if (solid)
-        {
-            for (label i = 0; i < 9; ++i)
-            {
-                F[i] += own_[i][celli];
-            }
-        }
-        else
-        {
-            F.xx() += own_[0][celli];
-            F.xy() += own_[1][celli];
-            F.yx() += own_[2][celli];
-            F.yy() += own_[3][celli];
-            F.zz() += radial < 0 ? 0 : own_[4][celli];
-        }
-        // b - 1 without the loss of digits of a difference
-        const scalar s = 1 + thermal[celli], J = det(F);
-        const tensor G(F - tensor::I);
-        const symmTensor e(symm(G + G.T() + (G & G.T())));
-        const symmTensor left
-        (
-            (e - symmTensor::I*thermal[celli]*(2 + thermal[celli]))/sqr(s)
-        );
-        const scalar logJ =
-            std::log1p(tr(G) + invariantII(G) + det(G)) - 3*std::log(s);
-        const symmTensor sigma
-        (
-            (shear_*left + symmTensor::I*(lambda_*logJ))/J
-        );
-        forAll(order_, k)
-        {
-            stress_[k][celli] = sigma[order_[k]];
-        }
-    }
-}
-
-
-void Foam::elasticLaw::output()
-{
-    symmTensorField all(stress_[0].size(), Zero);
-    forAll(order_, k)
-    {
-        all.replace(order_[k], stress_[k]);
-    }
-    grains_.setStress(all);
-}
-
-
-Foam::tmp<Foam::volSymmTensorField> Foam::elasticLaw::initialStress() const
-{
-    return 0*grains_.stress();
 }
 
 

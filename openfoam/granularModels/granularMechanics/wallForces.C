@@ -18,7 +18,7 @@ License
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-Foam::scalarField Foam::wallConditions::positions(const scalar time) const
+Foam::scalarField Foam::wallConstraints::positions(const scalar time) const
 {
     const label dim = mesh_.dim();
     scalarField sum(dim*mesh_.size(), Zero);
@@ -49,7 +49,7 @@ Foam::scalarField Foam::wallConditions::positions(const scalar time) const
 }
 
 
-Foam::scalarField Foam::wallConditions::mean(scalarField& sum) const
+Foam::scalarField Foam::wallConstraints::mean(scalarField& sum) const
 {
     const label dim = mesh_.dim();
     scalarField result(sum.size(), Zero);
@@ -75,7 +75,7 @@ Foam::scalarField Foam::wallConditions::mean(scalarField& sum) const
 }
 
 
-Foam::scalarField Foam::wallConditions::way
+Foam::scalarField Foam::wallConstraints::way
 (
     const scalar time,
     const scalarField& u
@@ -85,7 +85,7 @@ Foam::scalarField Foam::wallConditions::way
 }
 
 
-void Foam::wallConditions::addPressure
+void Foam::wallConstraints::addPressure
 (
     const scalar time,
     const scalarField& at,

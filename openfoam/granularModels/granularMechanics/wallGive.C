@@ -14,11 +14,11 @@ License
     any later version. It comes without any warranty: see the file LICENSE.
 \*---------------------------------------------------------------------------*/
 
-#include "wallConditions.H"
+#include "wallConstraints.H"
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-void Foam::wallConditions::readGive
+void Foam::wallConstraints::readGive
 (
     const dictionary& dict,
     wall& w
@@ -31,7 +31,7 @@ void Foam::wallConditions::readGive
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
-bool Foam::wallConditions::gives() const
+bool Foam::wallConstraints::gives() const
 {
     for (const wall& w : walls_)
     {
@@ -44,7 +44,7 @@ bool Foam::wallConditions::gives() const
 }
 
 
-Foam::scalarField Foam::wallConditions::give
+Foam::scalarField Foam::wallConstraints::give
 (
     const elementMesh::shapes& shapes,
     const scalarField& du,

@@ -14,7 +14,7 @@ License
     any later version. It comes without any warranty: see the file LICENSE.
 \*---------------------------------------------------------------------------*/
 
-#include "wallConditions.H"
+#include "wallConstraints.H"
 
 // * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
@@ -37,7 +37,7 @@ static const scalar apart = 1e-6;
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-void Foam::wallConditions::findPushing()
+void Foam::wallConstraints::findPushing()
 {
     const label dim = mesh_.dim();
     pushes_.resize(allBasis_.size()/dim, Zero);
@@ -74,7 +74,7 @@ void Foam::wallConditions::findPushing()
 }
 
 
-void Foam::wallConditions::holdOthers()
+void Foam::wallConstraints::holdOthers()
 {
     const label dim = mesh_.dim();
     directions_.resize(constrainedNodes_.size());
@@ -101,7 +101,7 @@ void Foam::wallConditions::holdOthers()
 }
 
 
-bool Foam::wallConditions::leftAcross
+bool Foam::wallConstraints::leftAcross
 (
     const label node,
     const scalar* normal
@@ -125,7 +125,7 @@ bool Foam::wallConditions::leftAcross
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
-Foam::scalarField Foam::wallConditions::alongWalls(const scalarField& values) const
+Foam::scalarField Foam::wallConstraints::alongWalls(const scalarField& values) const
 {
     const label dim = mesh_.dim();
     scalarField result(values.size(), Zero);
@@ -145,7 +145,7 @@ Foam::scalarField Foam::wallConditions::alongWalls(const scalarField& values) co
 }
 
 
-void Foam::wallConditions::setLeft
+void Foam::wallConstraints::setLeft
 (
     const scalarField& way,
     const scalar missed
@@ -164,7 +164,7 @@ void Foam::wallConditions::setLeft
 }
 
 
-Foam::label Foam::wallConditions::leave
+Foam::label Foam::wallConstraints::leave
 (
     const scalarField& way,
     const scalarField& force,
@@ -202,7 +202,7 @@ Foam::label Foam::wallConditions::leave
 }
 
 
-Foam::scalar Foam::wallConditions::largestGap(const scalarField& way) const
+Foam::scalar Foam::wallConstraints::largestGap(const scalarField& way) const
 {
     const label dim = mesh_.dim();
     scalar largest = 0;

@@ -14,7 +14,7 @@ License
     any later version. It comes without any warranty: see the file LICENSE.
 \*---------------------------------------------------------------------------*/
 
-#include "wallConditions.H"
+#include "wallConstraints.H"
 
 // * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
@@ -30,7 +30,7 @@ static const scalar parallel = 1e-6;
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-void Foam::wallConditions::findPistons()
+void Foam::wallConstraints::findPistons()
 {
     const label dim = mesh_.dim();
     forAll(walls_, patchi)
@@ -136,7 +136,7 @@ void Foam::wallConditions::findPistons()
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
-void Foam::wallConditions::tie(scalarField& values) const
+void Foam::wallConstraints::tie(scalarField& values) const
 {
     const label dim = mesh_.dim();
     for (const piston& one : pistons_)

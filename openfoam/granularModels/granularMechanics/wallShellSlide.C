@@ -33,7 +33,7 @@ static const scalar none = 1e-9;
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-void Foam::wallConditions::readAxis(const dictionary& dict, wall& w) const
+void Foam::wallConstraints::readAxis(const dictionary& dict, wall& w) const
 {
     // In the plane the axis is normal to it
     const label r = mesh_.radial();

@@ -36,7 +36,7 @@ static const scalar unlike = 0.25;
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-void Foam::wallConditions::readShell(const dictionary& dict, wall& w) const
+void Foam::wallConstraints::readShell(const dictionary& dict, wall& w) const
 {
     w.radius = keys.number(dict, "radius");
     w.stiffness =
@@ -51,7 +51,7 @@ void Foam::wallConditions::readShell(const dictionary& dict, wall& w) const
 }
 
 
-Foam::scalar Foam::wallConditions::radiusOf(const label patchi) const
+Foam::scalar Foam::wallConstraints::radiusOf(const label patchi) const
 {
     // Places x and normals n of a round wall follow x = centre + radius n: sums
     // of n, x and x.n over its area. Around the axis of a wedge the radial parts
