@@ -2,7 +2,7 @@
 
 use crate::error::CliError;
 use clap::Args;
-use msdd_rve::database::check::{Mean, Report, check};
+use msdd_rve::database::check::{Mean, check};
 use msdd_rve::database::spheres::check::TwinDifference;
 use msdd_rve::database::{Dataset, Grains, Record, SphereRecord, Violation, grains, inspect, spheres};
 use std::path::{Path, PathBuf};
@@ -23,7 +23,7 @@ pub fn run(arguments: &Arguments) -> Result<(), CliError> {
         Grains::Discs => {
             let dataset = inspect::<Record>(path)?;
             let report = check(&dataset);
-            print(&report);
+            print_symmetry(&report.symmetry);
             verdict(path, &dataset, &report.violations)
         }
         Grains::Spheres => {
@@ -75,35 +75,6 @@ fn print_symmetry(means: &[Mean]) {
             mean.mean,
             mean.standard_error,
             mean.packings
-        );
-    }
-}
-
-fn print(report: &Report) {
-    print_symmetry(&report.symmetry);
-    outln!("Size: packed states against the most frequent size, at equal porosity and fabric index");
-    for size in &report.sizes {
-        outln!(
-            "  {:>6} / {} discs  {:<30} {:+.2} % +- {:.2} % ({} packings)",
-            size.discs,
-            size.base,
-            size.quantity,
-            100.0 * size.relative,
-            100.0 * size.standard_error,
-            size.packings
-        );
-    }
-    outln!("Noise floor: scatter at equal initial porosity, initial fabric index and strain");
-    outln!("   discs  output                       scatter   of all values' spread   best R2   states");
-    for noise in &report.noise {
-        outln!(
-            "  {:>6}  {:<26} {:>9.2e} {:>20.2} % {:>11.4} {:>8}",
-            noise.discs,
-            noise.output,
-            noise.deviation,
-            100.0 * noise.share,
-            1.0 - noise.share * noise.share,
-            noise.states
         );
     }
 }

@@ -24,7 +24,7 @@ pub enum Command {
     Generate(GenerateArguments),
     /// Write a database as CSV, with FILE.columns.csv (units, meaning) and FILE.provenance.json.
     Export(ExportArguments),
-    /// Check laws that hold exactly for every row; print symmetry, size effects and scatter between packings. The exit status
+    /// Check laws that hold exactly for every row; print symmetry. The exit status
     /// is 1 if a law is violated.
     Check(check::Arguments),
     /// Write a plan for RVEs around states of a solver's run that were outside of the model's trained range.

@@ -1,26 +1,21 @@
-//! Checks of a database: exact laws on every row, mirror symmetry of the statistics, and the scatter of the outputs.
+//! Checks of a database: exact laws on every row, and mirror symmetry of the means.
 //!
 //! | module | what |
 //! |---|---|
 //! | `laws` | exact laws that every row must obey |
 //! | `increments` | laws of the rows of paths, each against the row that it starts from |
 //! | `twins` | equal packings that were reached by strain of the grains and of the box |
-//! | `statistics` | mirror symmetry of isotropic packings; small packings against large ones |
+//! | `statistics` | mirror symmetry of isotropic packings |
 //! | `planned` | rows against the plan; the tolerance |
-//! | `noise` | scatter of the outputs at equal inputs |
-//! | `local` | local linear regression |
 
 mod increments;
 mod laws;
-pub(super) mod local;
-mod noise;
 pub(super) mod planned;
-mod statistics;
+pub(super) mod statistics;
 mod twins;
 
 use super::{Dataset, Violation};
-pub use noise::Noise;
-pub use statistics::{Mean, SizeEffect};
+pub use statistics::Mean;
 
 /// Results of a check.
 #[derive(Clone, Debug)]
@@ -31,10 +26,6 @@ pub struct Report {
     pub violations: Vec<Violation>,
     /// Means over the isotropic packings of one size that vanish by symmetry.
     pub symmetry: Vec<Mean>,
-    /// Packed states of each other size compared with those of the most frequent size.
-    pub sizes: Vec<SizeEffect>,
-    /// Scatter of the outputs at equal inputs, by size.
-    pub noise: Vec<Noise>,
 }
 
 /// All violated laws of a dataset, those of symmetry included.
@@ -52,8 +43,6 @@ pub fn check(dataset: &Dataset) -> Report {
         rows: dataset.records.len(),
         violations: violations(dataset),
         symmetry: statistics::symmetry(&dataset.records),
-        sizes: statistics::sizes(&dataset.records),
-        noise: noise::noise(&dataset.records),
     }
 }
 

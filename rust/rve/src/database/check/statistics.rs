@@ -1,6 +1,5 @@
-//! Statistical checks: mirror symmetry, and small packings compared with large ones.
+//! Mirror symmetry of the means over packings; mean, variance, median.
 
-use super::local::{Points, mean, variance};
 use crate::Compression;
 use crate::database::plan::{Kind, RampName};
 use crate::database::{Record, Violation};
@@ -74,44 +73,20 @@ pub(super) fn symmetry(records: &[Record]) -> Vec<Mean> {
     means
 }
 
-/// Relative difference between packed states of one size and those of the most frequent size at equal η and f.
-#[derive(Clone, Debug, PartialEq)]
-pub struct SizeEffect {
-    pub discs: u64,
-    /// The most frequent size.
-    pub base: u64,
-    pub quantity: &'static str,
-    pub packings: usize,
-    /// Mean of (value / expected value of the base size at equal η and f) − 1 [-].
-    pub relative: f64,
-    pub standard_error: f64,
+/// Mean; 0 for an empty list.
+pub fn mean(values: &[f64]) -> f64 {
+    values.iter().sum::<f64>() / values.len().max(1) as f64
 }
 
-/// Size effects. Walls order the grains beside them, so a small difference is expected and no violation.
-pub(super) fn sizes(records: &[Record]) -> Vec<SizeEffect> {
-    let quantities: [Quantity; 3] = [
-        ("conductivity (mean of xx, yy)", |r| Some(0.5 * (r.conductivity_xx? + r.conductivity_yy?))),
-        ("pressure, reduced", |r| Some(0.5 * (r.stress_xx_reduced? + r.stress_yy_reduced?))),
-        ("coordination", |r| r.coordination),
-    ];
-    let sizes = packed(records);
-    let Some((&base, base_rows)) = sizes.iter().max_by_key(|(_, rows)| rows.len()) else { return Vec::new() };
-    let inputs_of = |r: &Record| Some([r.porosity?, r.fabric_index?]);
-    let inputs: Vec<[f64; 2]> = base_rows.iter().filter_map(|r| inputs_of(r)).collect();
-    let mut effects = Vec::new();
-    for (&discs, rows) in sizes.iter().filter(|(discs, _)| **discs != base) {
-        for (quantity, value) in quantities {
-            let output: Vec<f64> = base_rows.iter().filter_map(|r| value(r)).collect();
-            let points = Points { inputs: &inputs, output: &output };
-            let ratio = |r: &&Record| Some(value(r)? / points.fit(inputs_of(r)?)?.0 - 1.0);
-            let ratios: Vec<f64> = rows.iter().filter_map(ratio).collect();
-            let packings = ratios.len();
-            if packings > 2 {
-                let standard_error = (variance(&ratios) / packings as f64).sqrt();
-                let relative = mean(&ratios);
-                effects.push(SizeEffect { discs, base, quantity, packings, relative, standard_error });
-            }
-        }
-    }
-    effects
+/// Variance of the values, n − 1 in the denominator.
+pub fn variance(values: &[f64]) -> f64 {
+    let mean = mean(values);
+    values.iter().map(|v| (v - mean).powi(2)).sum::<f64>() / values.len().saturating_sub(1).max(1) as f64
+}
+
+/// Median, the upper one of an even number; 0 for an empty list.
+pub fn median(values: &[f64]) -> f64 {
+    let mut sorted = values.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    sorted.get(sorted.len() / 2).copied().unwrap_or(0.0)
 }

@@ -33,13 +33,11 @@ fn made(plan: &str, name: &str) -> Dataset {
 }
 
 #[test]
-fn a_generated_database_is_sound_and_its_noise_is_measured() {
+fn a_generated_database_is_sound() {
     let report = check(&dataset());
     assert_eq!(report.violations, []);
     assert_eq!(report.rows, 16 * 3 + 5);
     assert!(report.symmetry.iter().all(|mean| mean.packings == 16 && mean.count == 40));
-    let pressure = report.noise.iter().find(|noise| noise.output == "stress_xx_reduced").unwrap();
-    assert!(pressure.states == 48 && pressure.share > 0.05 && pressure.share < 1.5, "{pressure:?}");
 }
 
 #[test]

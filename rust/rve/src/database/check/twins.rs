@@ -8,8 +8,8 @@
 //! arrangement in one of the two, which changes a single pair by more. So single pairs have a wide bound, which finds
 //! damage, and the median over all pairs a narrow one.
 
-use super::local::median;
 use super::planned::{tolerance, within};
+use super::statistics::median;
 use crate::Outcome;
 use crate::database::kind::RampName;
 use crate::database::table::Row;

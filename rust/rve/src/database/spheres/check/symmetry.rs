@@ -1,7 +1,7 @@
 //! Isotropic packings have no direction: what tells one axis from another vanishes on average.
 
 use crate::database::check::Mean;
-use crate::database::check::local::{mean, variance};
+use crate::database::check::statistics::{mean, variance};
 use crate::database::spheres::kind::{PathName, SphereCompression};
 use crate::database::spheres::record::SphereRecord;
 use crate::spheres::{Averages, Tensor};

@@ -10,8 +10,8 @@
 
 use crate::Outcome;
 use crate::database::Violation;
-use crate::database::check::local::median;
 use crate::database::check::planned::within;
+use crate::database::check::statistics::median;
 use crate::database::spheres::kind::PathName;
 use crate::database::spheres::record::SphereRecord;
 use crate::database::table::Row;
