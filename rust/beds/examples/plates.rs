@@ -7,6 +7,11 @@
 //! diameters farther, which cuts them: spheres that it cuts have its temperature, and those farther are left out. The heat through
 //! this slab by the network of all conductances that walks find, over that of the network that `msdd bed run` makes.
 
+#[path = "direct/mod.rs"]
+mod direct;
+
+use direct::voxels::Ball;
+use direct::walk_on_spheres::Room;
 use msdd_beds::gas::plate_conductance;
 use msdd_beds::named_gases::GasName;
 use msdd_beds::network::{Materials, Network, Plate, PlateLaw};
@@ -15,8 +20,6 @@ use msdd_beds::pour::{Container, Pouring, pour};
 use msdd_beds::press::press;
 use msdd_beds::property::Property;
 use msdd_beds::scatter::Random;
-use msdd_beds::voxels::Ball;
-use msdd_beds::walk_on_spheres::Room;
 use msdd_spheres::{Boundary, Cell, Material, Simulation, Sphere, Stiffness, Wall};
 use std::error::Error;
 
@@ -105,7 +108,7 @@ fn room(places: &[[f64; 3]], radius: f64, depth: f64) -> Room {
 fn beside(name: &str, places: &[[f64; 3]], off: f64, side: usize) -> Any<()> {
     let places: Vec<[f64; 3]> =
         places.iter().map(|&[x, y, z]| [x, y, z + off]).filter(|place| place[2] < 6.0).collect();
-    let found = room(&places, 0.5, 8.0).from_plate([SIDE; 2], side, &mut Random::new(1)).balls;
+    let found = room(&places, 0.5, 8.0).exchange_of_plate([SIDE; 2], side, &mut Random::new(1)).balls;
     let mut law = vec![0.0; places.len()];
     for facing in facing(&between(&places, 1.0, 8.0)?, 0) {
         law[facing.sphere] = facing.size(0.0);
@@ -155,7 +158,8 @@ fn slab(name: &str, places: &[[f64; 3]], shrunk: f64, walks: usize) -> Any<()> {
     let room = room(&places, radius, DEPTH);
     let (mut links, mut plates) = (Links::new(), Links::new());
     for k in (0..places.len()).filter(|&k| !held[k]) {
-        let found = room.from_ball(k, walks, &mut Random::new(k as u64)).ok_or("spheres that touch")?;
+        let found =
+            room.exchange_of_ball(k, walks, &mut Random::new(k as u64)).ok_or("spheres that touch")?;
         plates.extend([0, 1].map(|plate| (k, plate, found.plates[plate])));
         // Between two free spheres the mean of both ways.
         let others = found.balls.iter().enumerate().filter(|(_, g)| **g > 0.0);

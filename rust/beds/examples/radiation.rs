@@ -8,16 +8,19 @@
 //! `radiation sheared [SPHERES] [RAYS]` prints the same of packings that were sheared at constant volume, as they are and opened to φ = 0.55.
 //!
 //! `radiation direct [SPHERES] [SEED] [VOXELS] [PERCENT]` prints K/k_g by solutions of the heat equation in spheres and gas with surfaces that
-//! radiate ([`msdd_beds::voxels`]), along z, with VOXELS along an edge and with 2/3 of that, extrapolated by the power 1, without
+//! radiate ([`direct::voxels`]), along z, with VOXELS along an edge and with 2/3 of that, extrapolated by the power 1, without
 //! radiation and with it; and the closed form with the conductivity without radiation of the direct solution. Where spheres touch, voxels
 //! conduct too well between good conductors; PERCENT makes the radii smaller, so that they do not touch.
 
+#[path = "direct/mod.rs"]
+mod direct;
+
+use direct::voxels::{Ball, Sight, Voxels};
 use msdd_beds::conductivity::{conductivity, mean};
 use msdd_beds::exchange::{Emissivities, Tracing, exchange};
 use msdd_beds::radiation::{Dark, factor};
 use msdd_beds::rays::{Body, Enclosure};
 use msdd_beds::scatter::Random;
-use msdd_beds::voxels::{Ball, Sight, Voxels};
 use msdd_beds::{Packing, pack, pack_along};
 use msdd_spheres::space::{dot, minus};
 use msdd_spheres::{Cell, Material, Simulation, Stiffness};

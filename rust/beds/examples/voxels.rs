@@ -3,11 +3,14 @@
 //! 2/3 and 4/9 of that, and extrapolated as a geometric series (Aitken): where spheres touch, the error falls with a power of the
 //! voxels that is 1 for poor conductors and less for good ones.
 
+#[path = "direct/mod.rs"]
+mod direct;
+
+use direct::correlation::zehner_bauer_schluender;
+use direct::voxels::{Ball, Voxels};
 use msdd_beds::conductances::gas_links;
 use msdd_beds::conductivity::{conductivity, mean};
-use msdd_beds::correlation::zehner_bauer_schluender;
 use msdd_beds::gas::Gas;
-use msdd_beds::voxels::{Ball, Voxels};
 use msdd_beds::{Packing, pack};
 use msdd_spheres::{Material, Stiffness};
 

@@ -7,9 +7,12 @@
 //! straight line through the four runs of lowest Pe of a series (ten numbers each): most series are concave in Pe, and a
 //! line through all runs would be too high at Pe = 0. The errors against that one are printed, too.
 
+#[path = "direct/mod.rs"]
+mod direct;
+
+use direct::correlation::{pore_width, radiation, zehner_bauer_schluender};
 use msdd_beds::conductances::{contact_links, gas_links};
 use msdd_beds::conductivity::{conductivity, mean};
-use msdd_beds::correlation::{pore_width, radiation, zehner_bauer_schluender};
 use msdd_beds::effective::{contact_factor, poor_spheres, share_of_pairs};
 use msdd_beds::named_gases::GasName;
 use msdd_beds::property::Property;

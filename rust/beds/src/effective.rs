@@ -7,7 +7,7 @@
 //!
 //! That is right for spheres that conduct much better than the gas. Where κ = k_s/k_g is below [`POOR`], as of ceramics in helium, heat
 //! does not go from sphere to sphere along straight lines, and κ_g is [`poor_spheres`] instead, a fit to direct solutions of the heat
-//! equation ([`crate::voxels`]). A contact then adds less than its own conductance, because without it heat would go through the thin
+//! equation (`examples/direct/voxels.rs`). A contact then adds less than its own conductance, because without it heat would go through the thin
 //! gas around it. Batchelor and O'Brien (Proc. R. Soc. A 355, 313, 1977) found, for a contact of the radius a, 0.22 λ² in place of 2λ/π
 //! (both over π k_g R) where λ = κ a/R is small; in between λ/(λ + 2.9) of the contact's conductance is taken, which has both ends. Between
 //! [`POOR`] and [`GOOD`] the two descriptions are mixed by the logarithm of κ.

@@ -26,9 +26,8 @@
 //! | [`plate_view_areas`](mod@plate_view_areas) | which part of a plate belongs to which sphere |
 //! | [`rays`] | straight rays between spheres and walls |
 //! | [`exchange`](mod@exchange) | exchange of heat by radiation between spheres and walls, by ray tracing |
-//! | [`correlation`] | published correlation for packed beds |
 //! | [`radiation`] | conductivity by radiation in closed form |
-//! | `solve` | conjugate gradients |
+//! | [`solve`] | conjugate gradients |
 //! | [`network`] | the network of a bed at rest with plates; conductances by temperature |
 //! | [`transient`] | temperatures of the spheres in time |
 //! | [`case`](mod@case) | the description of a bed that was measured |
@@ -42,18 +41,21 @@
 //! | [`rows`] | its averages as a file |
 //! | [`packings`] | mean and scatter of several packings of such a bed, from their files |
 //! | [`bed`] | a measured bed from pouring to temperatures |
-//! | [`voxels`] | direct solutions of the heat equation, to hold the laws against |
-//! | [`walk_on_spheres`] | direct solutions of the heat equation between isothermal spheres, likewise |
 //! | [`vtk`] | grains for ParaView |
 //! | [`conductivity`](mod@conductivity) | conductivity of a periodic box by its network of conductances |
 #![forbid(unsafe_code)]
+
+#[cfg(test)]
+#[path = "../examples/direct/mod.rs"]
+mod direct;
+#[cfg(test)]
+extern crate self as msdd_beds;
 
 pub mod averages;
 pub mod bed;
 pub mod case;
 pub mod conductances;
 pub mod conductivity;
-pub mod correlation;
 pub mod cost;
 pub mod coupled;
 pub mod dem_case;
@@ -83,12 +85,10 @@ pub mod schedule;
 pub mod settle;
 pub mod sizes;
 pub mod solid;
-mod solve;
+pub mod solve;
 pub mod transient;
 pub mod units;
-pub mod voxels;
 pub mod vtk;
-pub mod walk_on_spheres;
 pub mod wall;
 pub mod wall_control;
 

@@ -1,13 +1,13 @@
 //! The network of a bed at rest: what conducts between which spheres and plates, and how well at given temperatures.
 
 use crate::conductances::{Near, near_pairs};
-use crate::correlation::STEFAN_BOLTZMANN;
 use crate::effective::{contact_factor, gas_alone, pair_factor};
 use crate::exchange::Exchange;
 use crate::gas::{Gas, unequal_conductance};
 use crate::named_gases::GasName;
 use crate::plate_view_areas::{Facing, facing};
 use crate::property::Property;
+use crate::radiation::STEFAN_BOLTZMANN;
 use crate::radiation::{Dark, black, factor};
 use crate::solid::{Roughness, Solid};
 use msdd_spheres::{Partner, Simulation};

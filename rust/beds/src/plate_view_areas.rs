@@ -245,10 +245,10 @@ fn covered(arcs: &[(f64, f64)]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::direct::voxels::Ball;
+    use crate::direct::walk_on_spheres::Room;
     use crate::gas::plate_conductance;
     use crate::scatter::{Random, scatter};
-    use crate::voxels::Ball;
-    use crate::walk_on_spheres::Room;
     use msdd_spheres::{Boundary, Cell, Material, Stiffness};
 
     fn bed(spheres: &[([f64; 3], f64)], boundary: Boundary) -> Simulation {
@@ -328,7 +328,8 @@ mod tests {
         };
         for gap in [0.01, 0.1] {
             let balls = layers(gap).iter().map(|&centre| Ball { centre, radius: 0.5 }).collect();
-            let walks = Room::new([3.03; 2], 5.0, balls).from_plate([3.03; 2], 250, &mut Random::new(6));
+            let walks =
+                Room::new([3.03; 2], 5.0, balls).exchange_of_plate([3.03; 2], 250, &mut Random::new(6));
             let floor = Wall::at_rest([0.0; 3], [0.0, 0.0, 1.0]);
             let spheres: Vec<_> = layers(gap).into_iter().map(|centre| (centre, 0.5)).collect();
             let cell = Cell::block([3.03, 3.03, 20.0]);

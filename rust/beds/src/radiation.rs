@@ -16,11 +16,12 @@
 //!
 //! K_rad = 4 σ T³ d (F₀ + R (1 − c φ G₀)²/(1 + (c φ)² R 4 σ T³ d/M)).
 //!
-//! Only c = 1.1 is fitted, to direct solutions ([`crate::voxels`], `examples/radiation.rs`) with κ = k_s/k_g from 5 to 1000, Λ = k_s/
+//! Only c = 1.1 is fitted, to direct solutions (`examples/direct/voxels.rs`, `examples/radiation.rs`) with κ = k_s/k_g from 5 to 1000, Λ = k_s/
 //! (4 σ T³ d) from 0.3 to 100, φ from 0.55 to 0.63 and ε from 0.2 to 1; ray tracing alone gives 1.12. Whatever Λ, the limit of
 //! insulating spheres F₀ is kept.
 
-use crate::correlation::STEFAN_BOLTZMANN;
+/// σ of Stefan and Boltzmann \[W/(m² K⁴)\].
+pub const STEFAN_BOLTZMANN: f64 = 5.670_374e-8;
 
 /// F₀ over (1 − φ)²/φ.
 const REFLECTED: f64 = 0.4556;

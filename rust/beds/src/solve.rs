@@ -3,14 +3,14 @@
 /// Iterations after which a solution is given up.
 const MAX_ITERATIONS: usize = 10_000;
 
-pub(crate) fn inner(a: &[f64], b: &[f64]) -> f64 {
+pub fn inner(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
 /// Conjugate gradients with the diagonal as the preconditioner: x of A x = r, from x = 0. `apply` adds A d to its second
 /// argument, which comes as 0. `residual` is r, and on return what is left of it. None when the iteration does not end:
 /// numbers that are not finite, or of too unequal size.
-pub(crate) fn conjugate_gradients(
+pub fn conjugate_gradients(
     apply: impl Fn(&[f64], &mut [f64]),
     diagonal: &[f64],
     residual: &mut [f64],

@@ -1,11 +1,11 @@
 //! Heat in time against closed forms: a chain of spheres, and balances of random beds.
 
-use msdd_beds::correlation::STEFAN_BOLTZMANN;
 use msdd_beds::exchange::{Emissivities, Tracing, exchange};
 use msdd_beds::named_gases::GasName;
 use msdd_beds::network::{Beside, Joint, Materials, Network, Plate, PlateLaw, Surfaces};
 use msdd_beds::plate_view_areas::Facing;
 use msdd_beds::property::Property;
+use msdd_beds::radiation::STEFAN_BOLTZMANN;
 use msdd_beds::radiation::factor;
 use msdd_beds::rays::Enclosure;
 use msdd_beds::transient::Transient;

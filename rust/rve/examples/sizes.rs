@@ -5,8 +5,13 @@
 //! emissivity 0.8 by ray tracing, d the Sauter mean. The numbers in `msdd_beds::sizes` follow from these.
 //!
 //! `sizes gas [SPHERES] [WALKS]` prints the conductivity of the gas between isothermal spheres whose radii are 5 and 10 % smaller, by random
-//! walks ([`msdd_beds::walk_on_spheres`]) and by the law of pairs, as affine sums over the inner spheres of a packing.
+//! walks ([`direct::walk_on_spheres`]) and by the law of pairs, as affine sums over the inner spheres of a packing.
 
+#[path = "../../beds/examples/direct/mod.rs"]
+mod direct;
+
+use direct::voxels::Ball;
+use direct::walk_on_spheres::Room;
 use msdd_beds::conductances::{NEAR, gas_links};
 use msdd_beds::conductivity::{conductivity, mean};
 use msdd_beds::exchange::{Emissivities, Tracing, exchange};
@@ -14,8 +19,6 @@ use msdd_beds::gas::{gas_conductance, unequal_conductance};
 use msdd_beds::random::Random;
 use msdd_beds::rays::Enclosure;
 use msdd_beds::sizes::{Moments, Sizes};
-use msdd_beds::voxels::Ball;
-use msdd_beds::walk_on_spheres::Room;
 use msdd_rve::spheres::{GAS_NUMBERS, Preparation, averages, prepare};
 use msdd_spheres::{Cell, Simulation};
 use std::error::Error;
@@ -137,7 +140,7 @@ fn gas(spheres: usize, walks: usize) -> Result<(), Box<dyn Error>> {
                 if a.centre[2] < 4.5 * largest || z - a.centre[2] < 4.5 * largest {
                     continue;
                 }
-                let Some(found) = room.from_ball(i, walks, &mut Random::stream(7, i as u64)) else {
+                let Some(found) = room.exchange_of_ball(i, walks, &mut Random::stream(7, i as u64)) else {
                     continue;
                 };
                 for (j, b) in balls.iter().enumerate() {

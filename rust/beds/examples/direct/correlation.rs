@@ -1,7 +1,6 @@
 //! A published correlation for the conductivity of packed beds, to stand beside simulations.
 
-/// σ of Stefan and Boltzmann \[W/(m² K⁴)\].
-pub const STEFAN_BOLTZMANN: f64 = 5.670_374e-8;
+use msdd_beds::radiation::STEFAN_BOLTZMANN;
 
 /// k_r \[W/(m K)\] of radiation between layers of grains: 4 σ T³ d/(2/ε − 1).
 pub fn radiation(temperature: f64, diameter: f64, emissivity: f64) -> f64 {
@@ -16,7 +15,7 @@ pub fn pore_width(solid_fraction: f64) -> f64 {
 
 /// Conductivity of a bed of spheres over that of the gas by Zehner, Bauer and Schlünder (VDI Heat Atlas, 2nd ed., 2010, section D6.3),
 /// without contacts. `ratio` is k_s/k_g, `radiation` is k_r/k_g, and `gaps` is k_G/k_g = 1/(1 + M/d) of the gas in the gaps,
-/// with the jump length M ([`crate::gas::Gas::jump_length`]); 1: no jump.
+/// with the jump length M ([`msdd_beds::gas::Gas::jump_length`]); 1: no jump.
 pub fn zehner_bauer_schluender(porosity: f64, ratio: f64, radiation: f64, gaps: f64) -> f64 {
     let shape = 1.25 * libm::pow((1.0 - porosity) / porosity, 10.0 / 9.0);
     let both = ratio + radiation;

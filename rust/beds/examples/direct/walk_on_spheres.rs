@@ -1,5 +1,5 @@
 //! Direct solutions of the heat equation in the gas between isothermal spheres and plates, by random walks: to hold the laws of
-//! [`crate::plate_view_areas`] and [`crate::conductances`] against, for spheres that conduct without limit.
+//! [`msdd_beds::plate_view_areas`] and [`msdd_beds::conductances`] against, for spheres that conduct without limit.
 //!
 //! In a body without sources the temperature at a point is the mean over any sphere around it. So a walk that jumps to a random point
 //! of the largest sphere around it without a surface inside, again and again, ends at each surface as often as that surface's
@@ -8,8 +8,8 @@
 //! Two isothermal bodies of many exchange G (T₁ − T₂), with a G that depends on all of them: so the G found are those of an exact
 //! network.
 
-use crate::scatter::Random;
-use crate::voxels::Ball;
+use super::voxels::Ball;
+use msdd_beds::scatter::Random;
 use std::f64::consts::{PI, TAU};
 
 /// A walk ends so near to a surface, over the largest radius.
@@ -130,7 +130,7 @@ impl Room {
 
     /// Between the plate at z = 0 and all else, by `side`² walks from its part from the origin to `part`. The flux at a point is 3/(2 r)
     /// of the mean temperature on half a ball of radius r around it, weighted by the cosine.
-    pub fn from_plate(&self, part: [f64; 2], side: usize, random: &mut Random) -> Exchange {
+    pub fn exchange_of_plate(&self, part: [f64; 2], side: usize, random: &mut Random) -> Exchange {
         let mut found = Exchange { balls: vec![0.0; self.balls.len()], plates: [0.0; 2] };
         let area = part[0] * part[1] / (side * side) as f64;
         for place in 0..side * side {
@@ -149,7 +149,7 @@ impl Room {
 
     /// Between a ball and all else, by walks from a sphere around it that just meets the nearest surface. None if another
     /// surface touches it.
-    pub fn from_ball(&self, number: usize, walks: usize, random: &mut Random) -> Option<Exchange> {
+    pub fn exchange_of_ball(&self, number: usize, walks: usize, random: &mut Random) -> Option<Exchange> {
         let Ball { centre, radius } = self.balls[number];
         let others = self.balls.iter().enumerate().filter(|(k, _)| *k != number).map(|(_, other)| {
             let away = self.away(centre, other.centre);
@@ -196,7 +196,7 @@ mod tests {
     #[test]
     fn plates_exchange_area_over_distance() {
         let room = Room::new([3.0, 2.0], 1.5, Vec::new());
-        let found = room.from_plate([3.0, 2.0], 100, &mut Random::new(1));
+        let found = room.exchange_of_plate([3.0, 2.0], 100, &mut Random::new(1));
         assert!((found.plates[1] / 4.0 - 1.0).abs() < 0.02, "{found:?}");
     }
 
@@ -209,11 +209,11 @@ mod tests {
         let sum: f64 = (1..200).map(|n| 1.0 / (f64::from(n) * alpha).sinh()).sum();
         let expected = 4.0 * PI * radius * alpha.sinh() * sum;
         let room = Room::new([16.0; 2], 16.0, vec![Ball { centre: [8.0, 8.0, distance], radius }]);
-        let found = room.from_ball(0, 100_000, &mut Random::new(2)).expect("it touches nothing");
+        let found = room.exchange_of_ball(0, 100_000, &mut Random::new(2)).expect("it touches nothing");
         // Of the field lines that leave upwards, some go to the plate at the other side instead.
         let all = found.plates[0] + found.plates[1];
         assert!((all / expected - 1.0).abs() < 0.02, "{found:?} {expected}");
-        let back = room.from_plate([16.0; 2], 400, &mut Random::new(3));
+        let back = room.exchange_of_plate([16.0; 2], 400, &mut Random::new(3));
         assert!((back.balls[0] / found.plates[0] - 1.0).abs() < 0.04, "{back:?} {found:?}");
     }
 }

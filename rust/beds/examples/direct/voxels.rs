@@ -1,13 +1,13 @@
-//! Direct solutions of the heat equation in a periodic box of spheres, to hold the laws of [`crate::gas`] against.
+//! Direct solutions of the heat equation in a periodic box of spheres, to hold the laws of [`msdd_beds::gas`] against.
 //!
 //! The box is cut into N³ voxels with one temperature each. Between the middles of two neighbours heat goes along columns of a finer
 //! grid, in each through what there is of solid and gas one after the other: exact for layers along and across. The error falls with
 //! 1/N (the spots where spheres touch are never resolved), so solutions at two N are extrapolated.
 //!
-//! Surfaces that radiate exchange heat along rays ([`crate::rays`]) between the voxels just below them.
+//! Surfaces that radiate exchange heat along rays ([`msdd_beds::rays`]) between the voxels just below them.
 
-use crate::rays::Spot;
-use crate::solve::{conjugate_gradients, inner};
+use msdd_beds::rays::Spot;
+use msdd_beds::solve::{conjugate_gradients, inner};
 use msdd_spheres::space::plus;
 
 /// Finer cells in a voxel, along each axis.

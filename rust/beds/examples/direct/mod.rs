@@ -1,0 +1,13 @@
+//! Direct solutions of the heat equation and a published correlation, which the laws of heat are held against.
+//!
+//! | module | what |
+//! |---|---|
+//! | [`correlation`] | published correlation for packed beds |
+//! | [`voxels`] | direct solutions in a periodic box of spheres |
+//! | [`walk_on_spheres`] | direct solutions between isothermal spheres |
+// Each example uses a part.
+#![allow(dead_code)]
+
+pub mod correlation;
+pub mod voxels;
+pub mod walk_on_spheres;
