@@ -1,12 +1,12 @@
-//! A bed whose walls move, as `msdd bed run` computes it, without the rest of that program: the folder with dem.toml, the file
+//! A bed whose walls move, as `msdd bed run` computes it, without the rest of that program: the folder with bed.toml, the file
 //! to write, threads.
 //!
 //! ```sh
 //! cargo run --release -p msdd-beds --example moving -- cases/column dem.csv 1
 //! ```
 
+use msdd_beds::case::BedCase;
 use msdd_beds::coupled::{prepare, run};
-use msdd_beds::dem_case::DemCase;
 use msdd_beds::rows::elements;
 use std::path::Path;
 use std::time::Instant;
@@ -16,7 +16,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let [folder, file, threads] = arguments.as_slice() else {
         return Err("usage: moving FOLDER FILE THREADS".into());
     };
-    let scene = DemCase::read(Path::new(folder))?;
+    let scene = BedCase::read(Path::new(folder))?;
     let begin = Instant::now();
     let prepared = prepare(&scene, threads.parse()?, |_, _| ())?;
     println!("prepared after {:.0} s", begin.elapsed().as_secs_f64());

@@ -107,13 +107,13 @@ pub fn prepare(
         let rest = settle(&mut simulation, allowed, |a| watch("turn", progress(a)))?;
         stages.push(("turn", rested("turn", rest)?));
     }
-    let plate = number(&case.plate.wall);
-    if let Some(pressure) = case.plate.pressure {
+    let plate = number(&case.plate().wall);
+    if let Some(pressure) = case.plate().pressure {
         let load = (pressure, parallel_area(&case.vessel(), &simulation, plate));
         let rest = press(&mut simulation, plate, load, allowed, |a| watch("plate", progress(a)))?;
         stages.push(("plate", rested("plate", rest)?));
     }
-    let walls = [(plate, case.plate.emissivity)];
+    let walls = [(plate, case.plate().emissivity)];
     let exchange = grains.exchange(&simulation, &walls, case.temperatures(), (case.seed, threads))?;
     Ok(Bed { simulation, stages, plate, exchange })
 }
@@ -186,7 +186,7 @@ impl Bed {
 
     /// The network of the bed with a plate of a kind.
     pub fn network(&self, case: &BedCase, kind: PlateKind) -> Network {
-        let (grains, keys) = (&case.grains, &case.plate);
+        let (grains, keys) = (&case.grains, case.plate());
         let rough = |height: Option<f64>, hardness: Option<f64>| {
             let (height_over_slope, hardness) = (height?, hardness?);
             Some(Roughness { height_over_slope, hardness })
@@ -224,7 +224,7 @@ impl Bed {
     pub fn slab(&self, case: &BedCase, between: [f64; 2]) -> Option<Slab> {
         let network = self.network(case, PlateKind::Held);
         let (wall, width) = (self.wall(), Width::Whole(self.area(case)));
-        slab(&self.simulation, &network, &wall, between, width, case.heat.initial_temperature)
+        slab(&self.simulation, &network, &wall, between, width, case.time.initial_temperature)
     }
 
     /// Heats. `watch` is told how far it has come, from 0 to 1.
@@ -237,20 +237,21 @@ impl Bed {
         kind: PlateKind,
         mut watch: impl FnMut(f64),
     ) -> Result<Heated, BedError> {
-        let (network, wall, heat) = (self.network(case, kind), self.wall(), &case.heat);
+        let (network, wall, heat) = (self.network(case, kind), self.wall(), &case.time);
         let Surface::Flat { normal } = wall.surface else { return Err(BedError::NotFlat) };
         let touches = |sphere: &Sphere| wall.distance(sphere.position) < 2.0 * sphere.radius;
         if !self.simulation.spheres.iter().any(touches) {
-            return Err(BedError::WallNotTouching { wall: case.plate.wall.clone() });
+            return Err(BedError::WallNotTouching { wall: case.plate().wall.clone() });
         }
         let probe = |&distance: &f64| {
             Probe::new(&self.simulation, &wall, normal, distance)
-                .ok_or(BedError::NoGrains { key: "heat.probes", distance })
+                .ok_or(BedError::NoGrains { key: "record.distances", distance })
         };
-        let probes: Vec<Probe> = heat.probes.iter().map(probe).collect::<Result<_, _>>()?;
-        let mut transient = Transient::new(&network, heat.initial_temperature, vec![case.plate.temperature]);
+        let probes: Vec<Probe> = case.record.distances.iter().map(probe).collect::<Result<_, _>>()?;
+        let mut transient =
+            Transient::new(&network, heat.initial_temperature, vec![case.plate().temperature]);
         let record = |&distance: &f64| Record { distance, rows: Vec::new() };
-        let mut records: Vec<Record> = heat.probes.iter().map(record).collect();
+        let mut records: Vec<Record> = case.record.distances.iter().map(record).collect();
         let (outputs, mut step) =
             ((heat.end / heat.output_every - 1e-9).ceil() as u64, FIRST_STEP.min(heat.output_every));
         for output in 0..=outputs {

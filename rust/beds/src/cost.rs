@@ -1,6 +1,6 @@
 //! How long a bed whose walls move takes to compute, by an estimate before it begins.
 
-use crate::dem_case::DemCase;
+use crate::case::BedCase;
 
 /// Processor time of a step of one sphere \[s\], on one core. From 400 spheres and 216 000 steps, 8.3 core-seconds.
 const STEP: f64 = 1e-7;
@@ -20,7 +20,7 @@ pub struct Cost {
 }
 
 /// The cost of one packing of a bed.
-pub fn estimate(scene: &DemCase, threads: usize) -> Cost {
+pub fn estimate(scene: &BedCase, threads: usize) -> Cost {
     let (grains, gravity) = (&scene.grains, scene.container.gravity);
     let pouring = grains.pouring(scene.seed, scene.vessel(), gravity, threads);
     let down = pouring.fall() + REST * (grains.diameter / gravity).sqrt();

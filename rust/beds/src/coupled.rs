@@ -15,7 +15,7 @@
 //! The motion is not the motion in real time: it shows how a bed at rest changes, and how far from rest it is is recorded.
 
 use crate::BedError;
-use crate::dem_case::DemCase;
+use crate::case::BedCase;
 use crate::exchange::Exchange;
 use crate::harden::harden;
 use crate::network::{Materials, Network, Plate, PlateLaw};
@@ -133,7 +133,7 @@ impl Row {
 
 /// Tangential over normal force of the side of a cylinder on the grains, above 0 where it holds the bed down: what the floor bears
 /// more than lid and weight comes from the side. `None` without a side.
-pub fn side_friction(scene: &DemCase, row: &Row) -> Option<f64> {
+pub fn side_friction(scene: &BedCase, row: &Row) -> Option<f64> {
     let [floor, side, lid] =
         ["floor", "side", "lid"].map(|name| scene.wall(name).map(|wall| row.walls[wall]));
     let (grains, area) = (&scene.grains, PI * row.radius * row.radius);
@@ -165,7 +165,7 @@ pub struct Run {
 /// # Errors
 /// Those of the stages; a stage that does not come to rest.
 pub fn prepare(
-    scene: &DemCase,
+    scene: &BedCase,
     threads: usize,
     mut watch: impl FnMut(&'static str, f64),
 ) -> Result<Prepared, BedError> {
@@ -178,7 +178,7 @@ pub fn prepare(
     };
     let (mut simulation, rest) = pour(&pouring, |agitation| watch("pour", progress(agitation)))?;
     let mut stages = vec![rested("pour", rest)?];
-    let (lid, load) = (scene.wall("lid").unwrap_or_default(), (scene.lid.pressure, container.area()));
+    let (lid, load) = (scene.wall("lid").unwrap_or_default(), (scene.pressure(), container.area()));
     let rest = press(&mut simulation, lid, load, allowed, |a| watch("lid", progress(a)))?;
     stages.push(rested("lid", rest)?);
     let depth = simulation.boundary.walls()[lid].point[2];
@@ -197,7 +197,7 @@ pub fn prepare(
 
 /// The bed on its way.
 struct Coupled<'a> {
-    scene: &'a DemCase,
+    scene: &'a BedCase,
     exchange: Option<&'a Exchange>,
     simulation: Simulation,
     network: Network,
@@ -221,7 +221,7 @@ struct Coupled<'a> {
 ///
 /// # Errors
 /// A distance without grains; heat that does not converge; those of [`Simulation::run`].
-pub fn run(scene: &DemCase, prepared: &Prepared, mut watch: impl FnMut(f64)) -> Result<Run, BedError> {
+pub fn run(scene: &BedCase, prepared: &Prepared, mut watch: impl FnMut(f64)) -> Result<Run, BedError> {
     let mut bed = Coupled::new(scene, prepared);
     let (high, depth) = (scene.record.heights[1], bed.depth());
     if high > depth {
@@ -248,7 +248,7 @@ pub fn run(scene: &DemCase, prepared: &Prepared, mut watch: impl FnMut(f64)) -> 
 }
 
 impl<'a> Coupled<'a> {
-    fn new(scene: &'a DemCase, prepared: &'a Prepared) -> Self {
+    fn new(scene: &'a BedCase, prepared: &'a Prepared) -> Self {
         let (simulation, exchange) = (prepared.simulation.clone(), prepared.exchange.as_ref());
         let number = |name: &str| scene.wall(name).unwrap_or_default();
         let lid = number("lid");
@@ -311,8 +311,7 @@ impl<'a> Coupled<'a> {
     }
 
     fn heat(&mut self, [from, to]: [f64; 2], step: &mut f64) -> Result<(), BedError> {
-        let at =
-            |time: f64| -> Vec<f64> { self.scene.heated.iter().map(|h| h.temperature.at(time)).collect() };
+        let at = |time: f64| -> Vec<f64> { self.scene.heated.iter().map(|h| h.at(time)).collect() };
         let mut transient = Transient::from(&self.network, &self.temperatures, at(0.5 * (from + to)));
         transient.run_to(to - from, self.scene.time.tolerance, step)?;
         self.run.stored += transient.stored();
@@ -421,8 +420,7 @@ impl<'a> Coupled<'a> {
 
     /// What holds the walls at a time \[s\].
     fn aim(&mut self, time: f64) {
-        let keys = &self.scene.lid;
-        self.lid.hold = match (&keys.strain, &keys.pressing) {
+        self.lid.hold = match self.scene.lid_moves() {
             (Some(strain), _) => WallControl::Place { moved: strain.at(time) * self.depth_at_start },
             (None, Some(pressing)) => WallControl::Pressure { pressure: pressing.at(time) },
             (None, None) => WallControl::Place { moved: 0.0 },
@@ -440,7 +438,7 @@ impl<'a> Coupled<'a> {
     fn wall_growth(&self, time: f64) -> f64 {
         let expansion = self.scene.shell.as_ref().map_or(0.0, |shell| shell.thermal_expansion);
         let side = self.scene.heated.iter().find(|heated| heated.wall == "side");
-        let rise = side.map_or(0.0, |side| side.temperature.at(time) - self.scene.time.initial_temperature);
+        let rise = side.map_or(0.0, |side| side.at(time) - self.scene.time.initial_temperature);
         expansion * rise * self.scene.container.radius.unwrap_or(0.0)
     }
 
@@ -542,13 +540,13 @@ fn depth(simulation: &Simulation, lid: usize) -> f64 {
 }
 
 /// Where the averages are taken.
-fn region(scene: &DemCase, simulation: &Simulation) -> Region {
+fn region(scene: &BedCase, simulation: &Simulation) -> Region {
     let keys = &scene.record;
     Region { heights: keys.heights, radius: keys.radius, area: area(scene, simulation) }
 }
 
 /// Of the floor \[m²\]; the base of a bed without sides may be strained.
-fn area(scene: &DemCase, simulation: &Simulation) -> f64 {
+fn area(scene: &BedCase, simulation: &Simulation) -> f64 {
     lengths(simulation).map_or_else(|| scene.vessel().area(), |[x, y]| x * y)
 }
 
@@ -561,7 +559,7 @@ fn spread(simulation: &mut Simulation, aim: Option<[f64; 2]>, left: f64) {
 }
 
 /// The network of a bed whose heated walls hold the first layer of grains.
-fn network(scene: &DemCase, (simulation, exchange): (&Simulation, Option<&Exchange>), depth: f64) -> Network {
+fn network(scene: &BedCase, (simulation, exchange): (&Simulation, Option<&Exchange>), depth: f64) -> Network {
     let grains = &scene.grains;
     let middle = [0.25, 0.75].map(|part| part * depth);
     let floor = simulation.boundary.walls()[0];
@@ -592,6 +590,6 @@ fn network(scene: &DemCase, (simulation, exchange): (&Simulation, Option<&Exchan
 }
 
 /// Numbers of the heated walls.
-fn heated_walls(scene: &DemCase) -> impl Iterator<Item = usize> {
+fn heated_walls(scene: &BedCase) -> impl Iterator<Item = usize> {
     scene.heated.iter().map(|heated| scene.wall(&heated.wall).unwrap_or_default())
 }

@@ -46,7 +46,7 @@ pub enum ExperimentError {
     File(#[from] FileError),
     #[error("{file}, line {line}: '{text}', allowed: {allowed}", file = file.display())]
     Line { file: PathBuf, line: usize, text: String, allowed: String },
-    #[error("{file}: distance_m = {distance} is none of heat.probes = {probes:?}", file = file.display())]
+    #[error("{file}: distance_m = {distance} is none of record.distances = {probes:?}", file = file.display())]
     NoProbe { file: PathBuf, distance: f64, probes: Vec<f64> },
 }
 

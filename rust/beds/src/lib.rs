@@ -30,13 +30,12 @@
 //! | [`solve`] | conjugate gradients |
 //! | [`network`] | the network of a bed at rest with plates; conductances by temperature |
 //! | [`transient`] | temperatures of the spheres in time |
-//! | [`case`](mod@case) | the description of a bed that was measured |
+//! | [`case`](mod@case) | the description of a bed |
 //! | [`experiment`] | measured temperatures, and how far a simulation is from them |
 //! | [`profile`] | a bed between two distances from a plate; probes |
 //! | [`mobilised`] | how much of the friction of its contacts a packing has mobilised |
 //! | [`region`] | stresses in the inner part of a bed |
-//! | [`dem_case`] | the description of a bed whose walls move while heat flows |
-//! | [`coupled`] | such a bed: heat, growth of the grains, walls, averages over time |
+//! | [`coupled`] | a bed whose walls move: heat, growth of the grains, walls, averages over time |
 //! | [`cost`] | how long it takes, by an estimate |
 //! | [`rows`] | its averages as a file |
 //! | [`packings`] | mean and scatter of several packings of such a bed, from their files |
@@ -58,7 +57,6 @@ pub mod conductances;
 pub mod conductivity;
 pub mod cost;
 pub mod coupled;
-pub mod dem_case;
 pub mod effective;
 pub mod exchange;
 pub mod experiment;

@@ -60,7 +60,7 @@ pub fn join(seeds: &[u64], tables: &[String]) -> Option<Joined> {
     let seeds: Vec<String> = seeds.iter().map(ToString::to_string).collect();
     let text = |what: &str, of: fn(&[f64]) -> f64| {
         let mut text = format!(
-            "# DEM: {what} of {} packings, seeds {}; made by 'msdd bed run --packings' of msdd {} from dem.toml\n",
+            "# DEM: {what} of {} packings, seeds {}; made by 'msdd bed run --packings' of msdd {} from bed.toml\n",
             tables.len(),
             seeds.join(" "),
             env!("CARGO_PKG_VERSION"),

@@ -1,7 +1,7 @@
 //! A bed whose walls move, over time, as a file.
 
+use crate::case::BedCase;
 use crate::coupled::{Prepared, Run};
-use crate::dem_case::DemCase;
 use msdd_files::{Column, names};
 use std::fmt::Write;
 
@@ -61,10 +61,10 @@ const MOVING: [Column; 24] = [
     ),
 ];
 /// The rows of a run as CSV, with comments on where they come from.
-pub fn elements(scene: &DemCase, prepared: &Prepared, found: &Run) -> String {
+pub fn elements(scene: &BedCase, prepared: &Prepared, found: &Run) -> String {
     let walls = scene.vessel().walls(0.0);
     let mut text = format!(
-        "# DEM: {} spheres, seed {}, {} steps; made by 'msdd bed run' of msdd {} from dem.toml\n",
+        "# DEM: {} spheres, seed {}, {} steps; made by 'msdd bed run' of msdd {} from bed.toml\n",
         prepared.simulation.spheres.len(),
         scene.seed,
         found.steps,

@@ -119,6 +119,14 @@ pub fn kelvin<'de, D: Deserializer<'de>>(of: D) -> Result<f64, D::Error> {
     Given::deserialize(of)?.value(&TEMPERATURE).map_err(de::Error::custom)
 }
 
+/// For serde: a temperature over time \[K\], which may be missing.
+///
+/// # Errors
+/// Those of [`Given::value`].
+pub fn kelvin_over_time_or_none<'de, D: Deserializer<'de>>(of: D) -> Result<Option<Schedule>, D::Error> {
+    kelvin_over_time(of).map(Some)
+}
+
 /// For serde: a temperature over time \[K\].
 pub fn kelvin_over_time<'de, D: Deserializer<'de>>(of: D) -> Result<Schedule, D::Error> {
     let read = |given: &Given| given.value(&TEMPERATURE).map_err(de::Error::custom);

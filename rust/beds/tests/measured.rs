@@ -38,11 +38,13 @@ pressure = 1000
 young_modulus = 100e9
 poisson_ratio = 0.33
 conductivity = 250
-[heat]
+[time]
 initial_temperature = 293.15
 end = 100
 output_every = 10
-probes = [0.01, 0.03]
+[record]
+wall = "y_high"
+distances = [0.01, 0.03]
 "#;
 
 /// A folder with a description, removed at the end.
@@ -175,11 +177,12 @@ fn a_bed_that_moves_or_a_plate_apart_is_no_result() {
         small.replace("restitution = 0.5", "restitution = 1").replace("friction = 0.3", "friction = 0");
     let mut case = read("restless", &restless).unwrap();
     case.lid = None;
-    case.plate.pressure = Some(1e-9);
+    case.plate.as_mut().unwrap().pressure = Some(1e-9);
     let text = prepare(&case, 1, |_, _| ()).unwrap_err().to_string();
     assert!(text.contains("the grains still move") && text.contains("try more friction"), "{text}");
     let mut case = read("apart", &small).unwrap();
-    (case.lid, case.turn, case.plate.pressure) = (None, None, None);
+    (case.lid, case.turn) = (None, None);
+    case.plate.as_mut().unwrap().pressure = None;
     let mut bed = prepare(&case, 1, |_, _| ()).unwrap();
     bed.plate = 5;
     for kind in PlateKind::ALL {
@@ -193,7 +196,8 @@ fn a_bed_that_moves_or_a_plate_apart_is_no_result() {
 fn little_gravity_has_its_time() {
     let case = TEXT.replace("number = 300", "number = 100").replace("[lid]", "gravity = 0.1\n[lid]");
     let mut case = read("gravity", &case).unwrap();
-    (case.lid, case.plate.pressure) = (None, None);
+    case.lid = None;
+    case.plate.as_mut().unwrap().pressure = None;
     let bed = prepare(&case, 1, |_, _| ()).unwrap();
     assert!(bed.stages[0].1.time > 3.0, "{:?}", bed.stages);
 }
@@ -301,7 +305,7 @@ fn a_value_is_varied() {
     let vary = |key: &str, value: f64| Vary { key: key.to_string(), value: value.into() };
     let varied =
         |key: &str, value: f64| case.varied(&folder.0, &vary(key, value)).map_err(|error| error.to_string());
-    assert_eq!(varied("plate.temperature", 330.0).unwrap().plate.temperature, 330.0);
+    assert_eq!(varied("plate.temperature", 330.0).unwrap().plate().temperature, 330.0);
     let seed = Vary { key: "seed".to_string(), value: 7.into() };
     assert_eq!(case.varied(&folder.0, &seed).unwrap(), BedCase { seed: 7, ..case.clone() });
     assert!(seed.changes_packing() && vary("grains.friction", 0.5).changes_packing());
@@ -342,7 +346,7 @@ fn bad_measurements_are_refused_with_their_line() {
     std::fs::write(&file, format!("{head}\n0.02,5,20.5\n")).unwrap();
     let measured = experiment::read(&file).unwrap();
     let text = experiment::check(&file, &measured, &[0.01, 0.03]).unwrap_err().to_string();
-    assert!(text.contains("distance_m = 0.02 is none of heat.probes = [0.01, 0.03]"), "{text}");
+    assert!(text.contains("distance_m = 0.02 is none of record.distances = [0.01, 0.03]"), "{text}");
 }
 
 /// The descriptions and the measurements that are shipped.
@@ -353,7 +357,20 @@ fn the_shipped_cases_are_whole() {
         let case = BedCase::read(&folder).unwrap();
         let file = folder.join(&case.experiment.as_ref().unwrap().file);
         let measured = experiment::read(&file).unwrap();
-        experiment::check(&file, &measured, &case.heat.probes).unwrap();
+        experiment::check(&file, &measured, &case.record.distances).unwrap();
         assert_eq!(measured.len(), 216);
     }
+}
+
+/// The section `heat` and the name of the file before one description served all.
+#[test]
+fn former_descriptions_are_read() {
+    let heat = "[heat]\ninitial_temperature = 293.15\nend = 100\noutput_every = 10\nprobes = [0.01, 0.03]\n";
+    let vary = |key: &str| format!("[[vary]]\nkey = \"{key}\"\nvalue = 0.1\n");
+    let (head, _) = TEXT.split_once("[time]").unwrap();
+    let former = read("former", &(head.to_string() + heat + &vary("heat.tolerance"))).unwrap();
+    assert_eq!(former, read("present", &(TEXT.to_string() + &vary("time.tolerance"))).unwrap());
+    let folder = Folder::new("name", TEXT);
+    std::fs::rename(folder.0.join(FILE), folder.0.join("elements.toml")).unwrap();
+    assert_eq!(BedCase::read(&folder.0).unwrap(), read("again", TEXT).unwrap());
 }

@@ -1,8 +1,8 @@
 //! Beds whose walls move while heat flows, at small size: balances of heat and force, the path of the lid, the stiffness of the shell,
 //! nothing moves without a reason; bad descriptions.
 
+use msdd_beds::case::{BedCase, FILE};
 use msdd_beds::coupled::{Prepared, Run, prepare, run, side_friction};
-use msdd_beds::dem_case::{DemCase, FILE};
 use msdd_beds::effective::poor_spheres;
 use std::path::PathBuf;
 
@@ -55,14 +55,14 @@ impl Drop for Folder {
     }
 }
 
-fn read(text: &str) -> Result<DemCase, String> {
+fn read(text: &str) -> Result<BedCase, String> {
     use std::sync::atomic::{AtomicU32, Ordering};
     static COUNT: AtomicU32 = AtomicU32::new(0);
     let number = COUNT.fetch_add(1, Ordering::Relaxed);
     let folder = Folder(std::env::temp_dir().join(format!("msdd-moving-{}-{number}", std::process::id())));
     std::fs::create_dir_all(&folder.0).unwrap();
     std::fs::write(folder.0.join(FILE), text).unwrap();
-    DemCase::read(&folder.0).map_err(|error| error.to_string())
+    BedCase::read(&folder.0).map_err(|error| error.to_string())
 }
 
 fn text([container, lid, heated, record]: [&str; 4]) -> String {
@@ -70,7 +70,7 @@ fn text([container, lid, heated, record]: [&str; 4]) -> String {
     parts.into_iter().fold(TEXT.to_string(), |text, (place, part)| text.replace(place, part))
 }
 
-fn bed(parts: [&str; 4]) -> (DemCase, Prepared, Run) {
+fn bed(parts: [&str; 4]) -> (BedCase, Prepared, Run) {
     let scene = read(&text(parts)).unwrap();
     let prepared = prepare(&scene, 1, |_, _| ()).unwrap();
     let found = run(&scene, &prepared, |_| ()).unwrap();

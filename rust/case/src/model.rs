@@ -40,7 +40,7 @@ impl ModelGrains {
             "spheres" => Err(surrogate.refuse(
                 "type",
                 &kind,
-                "a surrogate of discs. This case has spheres: use 'msdd bed run'; 'msdd bed from-case' writes the dem.toml that it \
+                "a surrogate of discs. This case has spheres: use 'msdd bed run'; 'msdd bed from-case' writes the bed.toml that it \
                  requires",
             )),
             _ => Err(surrogate.refuse(

@@ -7,6 +7,7 @@ use crate::numbers::rounded;
 use crate::packing::{self, Discs, InitialPacking};
 use crate::ranges;
 use crate::walls::{self, WallOverTime};
+pub use msdd_beds::case::Mechanics;
 use msdd_beds::units::TEMPERATURE;
 use msdd_dem::WallHeat;
 use msdd_rve::Compression;
@@ -20,15 +21,6 @@ pub const SIDES: [&str; 2] = ["width of the box", "height of the box"];
 pub const BOX_HAS: &str = "box has at least four grains";
 /// Names of the walls, in the order of [`msdd_dem::Side`].
 pub const WALLS: [&str; 4] = ["left", "right", "bottom", "top"];
-
-/// Whether the grains move until the stress is in equilibrium.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Mechanics {
-    /// The grains do not move: the paper's algorithm.
-    None,
-    #[default]
-    Equilibrium,
-}
 
 /// All parameters of a new case. SI units.
 #[derive(Clone, Debug, PartialEq)]

@@ -10,9 +10,9 @@ use crate::scene::{DiscCase, Mechanics, parse_wall, proposed_cells, proposed_pro
 use crate::spheres::material::Spheres;
 use crate::spheres::scene::{Lid, SphereCase};
 use crate::spheres::shape::Shape;
-use crate::spheres::start::Gas;
 use crate::spheres::wall;
 use crate::walls::WallOverTime;
+use msdd_beds::case::GasKeys;
 use msdd_beds::named_gases::GasName;
 use msdd_rve::Compression;
 
@@ -60,7 +60,7 @@ pub fn spheres() -> SphereCase {
         initial_temperature: 293.0,
         material: "steel".to_string(),
         spheres: steel(),
-        gas: Gas { name: GasName::Helium, pressure: 1e5 },
+        gas: GasKeys::new(GasName::Helium, 1e5),
         flow: None,
         porosity: 0.4,
         pressure: 2e4,

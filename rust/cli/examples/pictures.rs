@@ -138,12 +138,12 @@ fn validity() -> Drawn {
         .iter()
         .flat_map(|folder| std::fs::read_dir(folder).into_iter().flatten().flatten())
         .map(|entry| entry.path())
-        .filter(|path| path.join("dem.toml").is_file())
+        .filter(|path| path.join("bed.toml").is_file())
         .collect();
     folders.sort();
     let mut kinds = [Vec::new(), Vec::new()];
     for folder in &folders {
-        let text = std::fs::read_to_string(folder.join("dem.toml"))?;
+        let text = std::fs::read_to_string(folder.join("bed.toml"))?;
         let key = |name: &str| {
             let line = text.lines().find_map(|line| line.strip_prefix(name)?.trim().strip_prefix('='));
             line.map_or(f64::NAN, |value| number(value.trim()))

@@ -5,11 +5,12 @@
 //! cargo run --release -p msdd-cli --example radiation_share -- docs/src/images/radiation.svg
 //! ```
 
+use msdd_beds::case::GasKeys;
 use msdd_beds::named_gases::GasName;
 use msdd_beds::property::Property;
 use msdd_case::material::{OF_SPHERES, Values};
 use msdd_case::spheres::material::Spheres;
-use msdd_case::spheres::start::{Gas, PouredBed};
+use msdd_case::spheres::start::PouredBed;
 use msdd_draw::{Axis, Line, Style, plot_named, series};
 use std::error::Error;
 
@@ -48,7 +49,7 @@ fn bed(diameter: f64, solid: f64) -> Result<PouredBed, Box<dyn Error>> {
 
 /// \[%\]
 fn share(bed: &PouredBed, temperature: f64) -> f64 {
-    let start = bed.start(POROSITY, &Gas { name: GasName::Air, pressure: 101_325.0 }, temperature);
+    let start = bed.start(POROSITY, &GasKeys::new(GasName::Air, 101_325.0), temperature);
     100.0 * start.by_radiation / start.conductivity
 }
 

@@ -15,7 +15,7 @@ use std::time::Instant;
 #[derive(Args)]
 pub struct Arguments {
     /// Database, or the CSV that was exported from one; given several times, all of them together. For spheres also a folder
-    /// of beds: of folders with dem.toml and results of `msdd bed run --packings`, whose strains inside are taken.
+    /// of beds: of folders with bed.toml and results of `msdd bed run --packings`, whose strains inside are taken.
     #[arg(long, value_name = "FILE", required = true)]
     database: Vec<PathBuf>,
     /// Model file (JSON) to write.

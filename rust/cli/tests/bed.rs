@@ -124,7 +124,7 @@ fn what_is_wrong_is_named_before_anything_is_computed() {
     let text = refused(&out, &|text| text.replace("experiment.csv", "nothing.csv"));
     assert!(text.contains("cannot read") && text.contains("nothing.csv"), "{text}");
     let text = refused(&out, &|text| text.replace("[0.04, 0.06, 0.073]", "[0.04, 0.06]"));
-    assert!(text.contains("distance_m = 0.073 is none of heat.probes"), "{text}");
+    assert!(text.contains("distance_m = 0.073 is none of record.distances"), "{text}");
     assert!(!out.exists());
     std::fs::create_dir_all(out.join("bed.json")).unwrap();
     let text = refused(&out, &|text| text);
@@ -133,7 +133,7 @@ fn what_is_wrong_is_named_before_anything_is_computed() {
 
 /// The shipped case `column`, with few grains and for a short time.
 fn moving(folder: &Path) -> PathBuf {
-    let shipped = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../cases/column/dem.toml");
+    let shipped = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../cases/column/bed.toml");
     let small = [
         ("number = 20000", "number = 120"),
         ("base = [0.16, 0.16]", "base = [0.0256, 0.0256]"),
@@ -149,7 +149,7 @@ fn moving(folder: &Path) -> PathBuf {
     });
     let case = folder.join("moving");
     std::fs::create_dir_all(&case).unwrap();
-    std::fs::write(case.join("dem.toml"), text).unwrap();
+    std::fs::write(case.join("bed.toml"), text).unwrap();
     case
 }
 
@@ -189,8 +189,8 @@ fn packings_are_joined_and_a_run_goes_on_where_it_was_killed() {
     assert!(told.contains("packing 2 of 2, seed 2: taken from") && !told.contains("seed 1: taken"), "{told}");
     assert_eq!(text(&outs[1], "dem.csv"), whole);
     // Another case in the same folder of results is computed afresh.
-    let changed = text(&case, "dem.toml").replace("pressure = 20000", "pressure = 30000");
-    std::fs::write(case.join("dem.toml"), changed).unwrap();
+    let changed = text(&case, "bed.toml").replace("pressure = 20000", "pressure = 30000");
+    std::fs::write(case.join("bed.toml"), changed).unwrap();
     let told = String::from_utf8(run(&case, &outs[1], &["--packings", "2"]).stdout).unwrap();
     assert!(!told.contains("taken from"), "{told}");
     assert_ne!(text(&outs[1], "dem.csv"), whole);
@@ -202,7 +202,9 @@ fn packings_are_for_moving_beds_and_more_than_one() {
     let out = folder.0.join("out");
     let refused = run(&case(&folder.0, |text| text), &out, &["--packings", "2"]);
     assert_eq!(refused.status.code(), Some(1));
-    assert!(String::from_utf8(refused.stderr).unwrap().contains("--packings, allowed: with an dem.toml"));
+    assert!(
+        String::from_utf8(refused.stderr).unwrap().contains("--packings, allowed: of a bed without a plate")
+    );
     let case = moving(&folder.0);
     assert_eq!(run(&case, &out, &["--packings", "1"]).status.code(), Some(2));
     let refused = run(&case, &out, &["--seed", "9223372036854775807", "--packings", "2"]);
@@ -210,11 +212,11 @@ fn packings_are_for_moving_beds_and_more_than_one() {
     assert!(String::from_utf8(refused.stderr).unwrap().contains("would be too large"));
     assert!(!out.exists());
     // A folder that cannot be made is told before anything is computed.
-    let under_a_file = case.join("dem.toml/out");
+    let under_a_file = case.join("bed.toml/out");
     for more in [&[][..], &["--packings", "2"]] {
         let refused = run(&case, &under_a_file, more);
         assert_eq!(refused.status.code(), Some(1));
         assert!(refused.stdout.is_empty());
-        assert!(String::from_utf8(refused.stderr).unwrap().contains("dem.toml/out"));
+        assert!(String::from_utf8(refused.stderr).unwrap().contains("bed.toml/out"));
     }
 }

@@ -88,7 +88,7 @@ fn a_law_of_beds_alone_is_refused() {
 #[test]
 fn what_is_no_bed_with_strains_is_refused() {
     let folder = Folder::new("refused");
-    assert!(refused(&folder.0).contains("no folder with dem.toml, allowed: a folder of beds"));
+    assert!(refused(&folder.0).contains("no folder with bed.toml, allowed: a folder of beds"));
     let bed = folder.with("path20");
     let change = |file: &str, from: &str, to: &str| {
         let text = std::fs::read_to_string(bed.join(file)).unwrap();
@@ -98,8 +98,8 @@ fn what_is_no_bed_with_strains_is_refused() {
     change("dem-18.csv", "strain_3", "other");
     assert!(refused(&folder.0).contains("dem-18.csv: no column strain_3 of numbers"));
     std::fs::remove_file(bed.join("dem-18.csv")).unwrap();
-    change("dem.toml", "friction = 0.3", "roughness = 3e-7\nhardness = 7e9\nfriction = 0.3");
-    assert!(refused(&folder.0).contains("dem.toml: spheres that are rough"));
+    change("bed.toml", "friction = 0.3", "roughness = 3e-7\nhardness = 7e9\nfriction = 0.3");
+    assert!(refused(&folder.0).contains("bed.toml: spheres that are rough"));
     std::fs::remove_file(bed.join("dem-17.csv")).unwrap();
     assert!(refused(&folder.0).contains("path20: no file dem-<seed>.csv"));
 }

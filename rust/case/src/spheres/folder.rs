@@ -1,8 +1,9 @@
 //! Makes the files of a new case of a bed of spheres.
 
+use super::blocks::{Across, Blocks};
 use super::scene::{Lid, SphereCase};
 use super::shape::{HALF_ANGLE, INNER, Shape};
-use super::start::{ACCOMMODATION, FABRIC, InitialBed, LATERAL};
+use super::start::{FABRIC, InitialBed, LATERAL};
 use super::wall;
 use crate::CaseError;
 use crate::fields::{FieldKind, uniform};
@@ -29,16 +30,12 @@ pub fn files(scene: &SphereCase, name: &str, checkout: &Path) -> Result<Vec<File
     let values = values(scene, name, checkout)?;
     let filled = |template: &str| fill(template, &values);
     let foam = |path, class: &str, template: &str| File::foam(path, class, &filled(template));
-    let mesh = match scene.shape {
-        Shape::Box(_) => template!("spheres/box"),
-        Shape::Cylinder { .. } => template!("spheres/cylinder"),
-    };
     let mut files = programs(name, checkout, tolerance(scene), scene.number() as usize, scene.steady);
     files.extend([
         File { path: "README.md", text: filled(template!("spheres/README.md")), program: false },
         foam("constant/granularProperties", "dictionary", template!("spheres/granularProperties")),
         foam("system/controlDict", "dictionary", template!("controlDict")),
-        foam("system/blockMeshDict", "dictionary", mesh),
+        File::foam("system/blockMeshDict", "dictionary", &mesh(scene)),
         foam("system/decomposeParDict", "dictionary", template!("decomposeParDict")),
         foam("0/T", "volScalarField", template!("T")),
     ]);
@@ -127,7 +124,13 @@ fn values(scene: &SphereCase, name: &str, checkout: &Path) -> Result<Values, Cas
     values.extend(scene.spheres.named().map(|(key, value, _)| (key, plain(value))));
     values.push(("emissivity", property_text(&scene.spheres.emissivity)));
     values.push(("sizeSpread", plain(scene.spheres.size_spread)));
-    values.extend(mesh_values(scene));
+    values.push(("sizes", sizes(&scene.shape)));
+    values.push(("diameter", diameter(scene)));
+    let counts = match (scene.shape, scene.cells.as_slice()) {
+        (Shape::Cylinder { .. }, &[across, along]) => vec![along, across, 1],
+        (_, cells) => cells.to_vec(),
+    };
+    values.push(("cells", counts.iter().map(ToString::to_string).collect::<Vec<_>>().join(" ")));
     values.extend(bed_values(scene, &start)?);
     Ok(values)
 }
@@ -152,36 +155,52 @@ fn wedge(shape: &Shape) -> &'static str {
     }
 }
 
-fn mesh_values(scene: &SphereCase) -> Values {
-    let counts = |order: &[usize]| order.iter().map(ToString::to_string).collect::<Vec<_>>().join(" ");
-    let mut values = vec![
-        ("height", plain(scene.shape.height())),
-        ("diameter", plain(rounded(2.0 * scene.spheres.radius(), 6))),
-    ];
-    match (scene.shape, scene.cells.as_slice()) {
-        (Shape::Cylinder { radius, height }, &[across, along]) => {
-            let place = |share: f64| [share * radius * HALF_ANGLE.cos(), share * radius * HALF_ANGLE.sin()];
-            let ([inner_y, inner_z], [outer_y, outer_z]) = (place(INNER), place(1.0));
-            let digits = |value: f64| plain(rounded(value, 10));
-            values.extend([
-                ("radius", plain(radius)),
-                ("innerY", digits(inner_y)),
-                ("innerZ", digits(inner_z)),
-                ("outerY", digits(outer_y)),
-                ("outerZ", digits(outer_z)),
-                ("cells", counts(&[along, across, 1])),
-                ("sizes", format!("a cylinder with a radius of {radius} m and a height of {height} m")),
-            ]);
+fn mesh(scene: &SphereCase) -> String {
+    let (height, cells) = (scene.shape.height(), &scene.cells);
+    let along = cells[cells.len() - 1];
+    let (across, patches, order, about): (_, _, &[usize], _) = match scene.shape {
+        Shape::Box([width, depth, _]) => (
+            Across::Box([width, depth], [cells[0], cells[1]]),
+            ["left", "right", "front", "back", "bottom", "top"],
+            &[0, 1, 2, 3, 4, 5],
+            "",
+        ),
+        Shape::Cylinder { radius, .. } => (
+            Across::Wedge(vec![INNER * radius, radius], vec![cells[0]]),
+            ["inner", "side", "bottom", "top", "front", "back"],
+            &[1, 2, 3, 0, 4, 5],
+            ", as a wedge of 5 degrees. The axis is x and points upwards, the radius is y;\n// a narrow hole stands for the axis (inner)",
+        ),
+    };
+    let blocks = Blocks {
+        across,
+        levels: vec![0.0, height],
+        cells: vec![along],
+        patches,
+        order,
+        zone: None,
+        digits: 10,
+    };
+    format!(
+        "// {}{about}. A cell should not be smaller than a sphere, {} m.\n\nscale   1;\n\n{}",
+        sizes(&scene.shape),
+        diameter(scene),
+        blocks.text()
+    )
+}
+
+fn diameter(scene: &SphereCase) -> String {
+    plain(rounded(2.0 * scene.spheres.radius(), 6))
+}
+
+/// The shape in words.
+fn sizes(shape: &Shape) -> String {
+    match *shape {
+        Shape::Cylinder { radius, height } => {
+            format!("a cylinder with a radius of {radius} m and a height of {height} m")
         }
-        (Shape::Box([width, depth, height]), cells) => values.extend([
-            ("width", plain(width)),
-            ("depth", plain(depth)),
-            ("cells", counts(cells)),
-            ("sizes", format!("a box of {width} x {depth} x {height} m")),
-        ]),
-        (Shape::Cylinder { .. }, _) => {}
+        Shape::Box([width, depth, height]) => format!("a box of {width} x {depth} x {height} m"),
     }
-    values
 }
 
 /// The stress at the start, for README.md.
@@ -211,7 +230,7 @@ fn bed_values(scene: &SphereCase, start: &InitialBed) -> Result<Values, CaseErro
         ("notFlow", if scene.flow.is_some() { "" } else { ", and flow of the gas" }.to_string()),
         ("gas", scene.gas.name.as_str().to_string()),
         ("gasPressure", plain(scene.gas.pressure)),
-        ("accommodation", plain(ACCOMMODATION)),
+        ("accommodation", plain(scene.gas.accommodation)),
         ("coordination", short(start.coordination)),
         ("fabric", scene.shape.tensor(along, up)),
         ("held", held(scene)),
@@ -242,7 +261,7 @@ fn held(scene: &SphereCase) -> String {
         (_, Lid::Presses) => "the top is a stiff plate under a constant load",
         (_, Lid::Stays) => "the top is fixed",
     };
-    let side = match scene.shell {
+    let side = match &scene.shell {
         Some(_) => "a thin elastic shell",
         None => "fixed",
     };
@@ -356,7 +375,7 @@ fn flow_row(scene: &SphereCase) -> String {
 
 /// The side of a cylinder as a shell.
 fn side(scene: &SphereCase) -> Option<String> {
-    match (scene.shell, scene.shape) {
+    match (&scene.shell, scene.shape) {
         (Some(shell), Shape::Cylinder { radius, .. }) => Some(format!(
             "type shell; youngModulus {}; thickness {}; radius {};{}{}",
             plain(shell.young_modulus),

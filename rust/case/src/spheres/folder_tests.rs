@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::scenes_for_tests::{spheres, text, walls as walls_of};
-use crate::spheres::scene::{Flow, Shell};
+use msdd_beds::case::{End, Flow, Shell};
 
 #[test]
 fn walls_and_stress_stand_where_the_solver_looks_for_them() {
@@ -16,12 +16,12 @@ fn walls_and_stress_stand_where_the_solver_looks_for_them() {
     };
     let closed = SphereCase { lid: Lid::Stays, slack_layer: 1.0, gravity: 9.81, ..spheres() };
     let shell = Some(Shell { young_modulus: 2e11, thickness: 0.002, thermal_expansion: 1.2e-5 });
-    let vessel = SphereCase { shell, ..closed.clone() };
+    let vessel = SphereCase { shell: shell.clone(), ..closed.clone() };
     let rough = SphereCase { wall_friction: 0.3, ..closed };
     let bare = SphereCase { wall_material: None, steady: true, ..spheres() };
     let rough_vessel = SphereCase { shell, lid: Lid::Presses, slack_layer: 0.0, ..rough.clone() };
     let still = SphereCase { mechanics: Mechanics::None, ..spheres() };
-    let flow = Some(Flow { mass: 0.0072, temperature: 813.0, upwards: true });
+    let flow = Some(Flow { mass: 0.0072, temperature: 813.0, from: End::Bottom });
     let blown = SphereCase { flow, walls: walls_of(["insulated"; 3]).to_vec(), ..spheres() };
     const GRAINS: &str = "constant/granularProperties";
     for (scene, path, words, there) in [

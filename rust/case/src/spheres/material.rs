@@ -4,6 +4,7 @@ use crate::CaseError;
 use crate::grains::Grains;
 use crate::material::Material;
 use crate::ranges::allow;
+use msdd_beds::case::{FRICTION, Grains as Keys, RESTITUTION};
 use msdd_beds::property::Property;
 use msdd_beds::sizes::{MAX_SPREAD, equal_density};
 use msdd_beds::units;
@@ -57,6 +58,56 @@ impl Spheres {
             roughness,
             grains,
         })
+    }
+
+    /// Those of a bed, at a temperature \[K\].
+    pub fn of_bed(keys: &Keys, temperature: f64) -> Self {
+        let spread = || keys.sizes.as_ref().map_or(0.0, |_| keys.moments().spread);
+        Self {
+            grains: Grains {
+                density: keys.density,
+                young_modulus: keys.young_modulus,
+                thermal_conductivity: keys.conductivity.at(temperature),
+                heat_capacity: keys.heat_capacity.at(temperature),
+                thermal_expansion: keys.thermal_expansion.unwrap_or(0.0),
+                mean_radius: 0.5 * keys.diameter,
+            },
+            conductivity: keys.conductivity.clone(),
+            heat_capacity: keys.heat_capacity.clone(),
+            poisson_ratio: keys.poisson_ratio,
+            roughness: keys.roughness.unwrap_or(0.0),
+            hardness: keys.hardness.unwrap_or(ANY_HARDNESS),
+            emissivity: keys.emissivity.clone().unwrap_or(Property::Constant(0.0)),
+            crush_load: keys.crush_load,
+            size_spread: keys.size_spread.unwrap_or_else(spread),
+        }
+    }
+
+    /// As the description of a bed has them, with a friction of the walls.
+    pub fn keys(&self, wall_friction: f64) -> Keys {
+        let grains = &self.grains;
+        Keys {
+            number: 0,
+            diameter: 2.0 * grains.mean_radius,
+            density: grains.density,
+            young_modulus: grains.young_modulus,
+            poisson_ratio: self.poisson_ratio,
+            simulated_young_modulus: f64::NAN,
+            friction: FRICTION,
+            wall_friction,
+            restitution: RESTITUTION,
+            conductivity: self.conductivity.clone(),
+            heat_capacity: self.heat_capacity.clone(),
+            roughness: Some(self.roughness),
+            hardness: Some(self.hardness),
+            yield_stress: None,
+            emissivity: Some(self.emissivity.clone()),
+            rays: None,
+            thermal_expansion: Some(grains.thermal_expansion),
+            crush_load: self.crush_load,
+            size_spread: Some(self.size_spread),
+            sizes: None,
+        }
     }
 
     /// With the conductivity and the heat capacity at this temperature \[K\] in `grains`.

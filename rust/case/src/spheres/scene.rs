@@ -2,16 +2,19 @@
 
 use super::material::Spheres;
 use super::shape::Shape;
-use super::start::{Gas, InitialBed, PouredBed};
+use super::start::{InitialBed, PouredBed};
 use super::wall::{self, WallMaterial};
 use crate::CaseError;
 use crate::numbers::{plain, rounded};
 use crate::ranges::{self, allow};
 use crate::scene::Mechanics;
 use crate::walls::{self, WallOverTime};
+use msdd_beds::case::{BedCase, Flow, GasKeys, Heated, Shell};
 use msdd_beds::effective::MIN_RATIO;
 use msdd_beds::named_gases::GasName;
 use msdd_beds::property::VALUES;
+use msdd_beds::schedule::Schedule;
+use msdd_dem::WallHeat;
 use msdd_rve::message::number;
 use std::f64::consts::PI;
 
@@ -25,36 +28,7 @@ pub enum Lid {
     Stays,
 }
 
-/// The side of a cylinder as a thin wall that gives way.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Shell {
-    /// Young's modulus \[Pa\].
-    pub young_modulus: f64,
-    /// \[m\]
-    pub thickness: f64,
-    /// Linear thermal expansion coefficient \[1/K\]; the wall has its place of the start at the bed's temperature of the start.
-    pub thermal_expansion: f64,
-}
-
-/// Gas that flows through the bed from one end to the other.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Flow {
-    /// Through the whole bed \[kg/s\], > 0.
-    pub mass: f64,
-    /// Of the gas that enters \[K\].
-    pub temperature: f64,
-    /// Whether it enters at the bottom, else at the top.
-    pub upwards: bool,
-}
-
-impl Flow {
-    /// Names of the walls where the gas enters and leaves.
-    pub fn ends(&self) -> [&'static str; 2] {
-        if self.upwards { ["bottom", "top"] } else { ["top", "bottom"] }
-    }
-}
-
-/// All parameters of a new case. SI units.
+/// All parameters of a new case, from the description of a bed. SI units.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SphereCase {
     pub shape: Shape,
@@ -67,7 +41,7 @@ pub struct SphereCase {
     /// Name of the material, for comments in the files.
     pub material: String,
     pub spheres: Spheres,
-    pub gas: Gas,
+    pub gas: GasKeys,
     pub flow: Option<Flow>,
     /// 1 − volume of the spheres over the volume.
     pub porosity: f64,
@@ -96,6 +70,10 @@ pub struct SphereCase {
     pub probes: Vec<Vec<f64>>,
 }
 
+/// By how many diameters spheres give way at plates that stay: about the mean of the poured beds, see `msdd bed slack`.
+const SLACK: f64 = 1.0;
+/// Porosity of poured beds of equal spheres.
+const POROSITY: f64 = 0.4;
 /// Gravity on earth \[m/s²\].
 pub const GRAVITY: f64 = 9.81;
 /// What a bed has, for messages.
@@ -133,7 +111,134 @@ pub fn check_porosity(spheres: &Spheres, pressure: f64, porosity: f64) -> Result
     })
 }
 
+/// Usual porosity of beds that were poured with a friction of 0.3, to three digits.
+pub fn usual_porosity(spheres: &Spheres) -> f64 {
+    rounded(1.0 - (1.0 - POROSITY) / spheres.equal_density(), 3)
+}
+
+/// The box or the cylinder of a bed.
+fn shape_of(bed: &BedCase) -> Result<Shape, CaseError> {
+    let vessel = &bed.container;
+    let Some(height) = vessel.height else {
+        return refuse("container.height", "not given", "the height of the bed [m]");
+    };
+    match (vessel.base, vessel.radius) {
+        (Some([x, y]), None) => Ok(Shape::Box([x, y, height])),
+        (None, Some(radius)) => Ok(Shape::Cylinder { radius, height }),
+        _ => refuse("container", "both or neither of base and radius", "one of base and radius"),
+    }
+}
+
+/// The conditions of the walls, in the order of [`Shape::walls`].
+fn walls_of(heated: &[Heated], shape: &Shape) -> Result<Vec<WallOverTime>, CaseError> {
+    let names = shape.bed_walls();
+    if let Some(heated) = heated.iter().find(|heated| !names.contains(&heated.wall.as_str())) {
+        return refuse("heated.wall", &heated.wall, &names.join(", "));
+    }
+    let condition = |name: &&str| match heated.iter().find(|heated| heated.wall == *name) {
+        None => Ok(WallOverTime::Steady(WallHeat::Insulated)),
+        Some(Heated {
+            temperature: Some(Schedule::Constant(value)), coefficient: None, flux: None, ..
+        }) => Ok(WallOverTime::Steady(WallHeat::Temperature(*value))),
+        Some(Heated { temperature: Some(Schedule::Table(rows)), coefficient: None, flux: None, .. }) => {
+            let table = WallOverTime::table(rows.clone());
+            table.map_or_else(|| refuse("heated.temperature", name, "a table of rising times from 0 on"), Ok)
+        }
+        Some(Heated {
+            temperature: None,
+            coefficient: Some(coefficient),
+            outside: Some(outside),
+            flux: None,
+            ..
+        }) => Ok(WallOverTime::Coefficient { coefficient: *coefficient, outside: *outside }),
+        Some(Heated { temperature: None, coefficient: None, outside: None, flux: Some(flux), .. }) => {
+            Ok(WallOverTime::Flux(*flux))
+        }
+        Some(_) => refuse("heated", name, "one of temperature, flux, or coefficient with outside"),
+    };
+    names.iter().map(condition).collect()
+}
+
+/// A wall that heat passes, as the description of a bed has it.
+pub fn heated(wall: &str, condition: &WallOverTime) -> Option<Heated> {
+    let named = Heated { wall: wall.to_string(), ..Heated::default() };
+    match condition.clone() {
+        WallOverTime::Steady(WallHeat::Temperature(value)) => {
+            Some(Heated::new(wall, Schedule::Constant(value)))
+        }
+        WallOverTime::Table(rows) => Some(Heated::new(wall, Schedule::Table(rows))),
+        WallOverTime::Coefficient { coefficient, outside } => {
+            Some(Heated { coefficient: Some(coefficient), outside: Some(outside), ..named })
+        }
+        WallOverTime::Flux(flux) => Some(Heated { flux: Some(flux), ..named }),
+        WallOverTime::Steady(_) => None,
+    }
+}
+
 impl SphereCase {
+    /// The case of a bed; `material`: its name, for comments in the files.
+    ///
+    /// # Errors
+    /// What only DEM computes; the errors of [`Self::check`].
+    pub fn new(bed: &BedCase, material: &str) -> Result<Self, CaseError> {
+        let (strain, pressing) = bed.lid_moves();
+        let of_dem = [
+            ("plate", bed.plate.is_some()),
+            ("turn", bed.turn.is_some()),
+            ("sides", bed.sides.is_some()),
+            ("container.endless", bed.container.endless),
+            ("lid.strain", strain.is_some()),
+        ];
+        if let Some((key, _)) = of_dem.into_iter().find(|(_, given)| *given) {
+            return refuse(key, "given", "only by 'msdd bed run' and 'msdd bed case'");
+        }
+        let lid = match pressing {
+            None => Lid::Stays,
+            Some(Schedule::Constant(value)) if *value == bed.pressure() => Lid::Presses,
+            Some(_) => return refuse("lid.pressing", "another pressure", "lid.pressure, or none"),
+        };
+        let (keys, shape) = (&bed.solver, shape_of(bed)?);
+        let initial_temperature = bed.time.initial_temperature;
+        let spheres = Spheres::of_bed(&bed.grains, initial_temperature);
+        let porosity = bed.container.porosity.unwrap_or_else(|| usual_porosity(&spheres));
+        let mechanics = keys.mechanics.unwrap_or_default();
+        let slack = if lid == Lid::Stays && mechanics == Mechanics::Equilibrium { SLACK } else { 0.0 };
+        let mut scene = Self {
+            cells: keys.cells.clone().unwrap_or_default(),
+            walls: walls_of(&bed.heated, &shape)?,
+            shape,
+            initial_temperature,
+            material: material.to_string(),
+            spheres,
+            gas: bed.gas.clone(),
+            flow: bed.flow,
+            porosity,
+            pressure: bed.pressure(),
+            mechanics,
+            lid,
+            shell: bed.shell.clone(),
+            slack_layer: keys.slack_layer.unwrap_or(slack),
+            wall_friction: bed.grains.wall_friction,
+            wall_material: WallMaterial::named(keys.wall_material.as_deref())?,
+            gravity: bed.container.gravity,
+            // By the volume of the bed; twelve digits, so that a number comes back as it was given.
+            heat_source: bed.heat_source.map(|heat| rounded(heat * (1.0 - porosity), 12)),
+            end_time: bed.time.end,
+            tolerance: keys.tolerance,
+            steady: keys.steady,
+            probes: keys.probes.clone(),
+        };
+        if keys.cells.is_none() {
+            scene.cells = scene.shape.proposed_cells(&scene.varies(), 2.0 * scene.spheres.radius());
+        }
+        scene.check()?;
+        if scene.probes.is_empty() {
+            scene.probes = scene.shape.proposed_probes(scene.steepest());
+        }
+        scene.check()?;
+        Ok(scene)
+    }
+
     /// Refuses values out of range; the error names the first of them.
     ///
     /// # Errors
@@ -154,6 +259,10 @@ impl SphereCase {
     fn check_mesh(&self) -> Result<(), CaseError> {
         for (key, length) in self.shape.lengths() {
             ranges::length(key, length, self.spheres.radius(), BED_HAS)?;
+        }
+        let directions = self.shape.lengths().len();
+        if self.cells.len() != directions {
+            return refuse("cells", &format!("{:?}", self.cells), &format!("{directions} numbers"));
         }
         ranges::cells(&self.cells)?;
         match self.probes.iter().find(|probe| !self.shape.holds(probe)) {
@@ -247,7 +356,7 @@ impl SphereCase {
                 "0 with mechanics none, where spheres stay where they are",
             );
         }
-        let Some(shell) = self.shell else { return Ok(()) };
+        let Some(shell) = &self.shell else { return Ok(()) };
         let Shape::Cylinder { radius, .. } = self.shape else {
             return refuse("shell", "given", "with the shape cylinder, whose side it is");
         };

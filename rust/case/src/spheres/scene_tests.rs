@@ -5,6 +5,7 @@ use crate::material::{OF_SPHERES, Values};
 use crate::scene::parse_wall;
 use crate::scenes_for_tests::{each_is_refused, spheres};
 use crate::spheres::material::Spheres;
+use msdd_beds::case::End;
 
 #[test]
 fn wishes_out_of_range_are_refused_with_key_value_and_range() {
@@ -37,7 +38,7 @@ fn wishes_out_of_range_are_refused_with_key_value_and_range() {
 
 #[test]
 fn a_flow_needs_a_gas_and_open_ends() {
-    let flow = Flow { mass: 0.004, temperature: 813.0, upwards: false };
+    let flow = Flow { mass: 0.004, temperature: 813.0, from: End::Top };
     let walls = vec![parse_wall("insulated").unwrap(); 3];
     let scene = SphereCase { flow: Some(flow), walls, ..spheres() };
     each_is_refused(
@@ -90,4 +91,76 @@ fn weight_and_friction_that_are_left_out_are_noted() {
     begins(&spheres(), &["the weight of the bed, up to 18000 Pa at the bottom", "the sides are smooth"]);
     let rough = SphereCase { gravity: GRAVITY, wall_friction: wall::OF_SPHERE, ..spheres() };
     begins(&rough, &[]);
+}
+
+/// One file for DEM and for the solver.
+const BED: &str = r#"
+heat_source = 5000
+[grains]
+diameter = 6.4e-3
+density = 7800
+young_modulus = 210e9
+poisson_ratio = 0.3
+conductivity = 46
+heat_capacity = 475
+thermal_expansion = 1.2e-5
+wall_friction = 0.2
+[container]
+radius = 0.1
+height = 0.4
+porosity = 0.4
+[lid]
+pressure = 2e4
+pressing = 2e4
+[gas]
+name = "helium"
+[[heated]]
+wall = "side"
+temperature = [[0, 300], [60, 400]]
+[[heated]]
+wall = "lid"
+coefficient = 50
+outside = 293
+[time]
+initial_temperature = 293.15
+end = 1e4
+[solver]
+cells = [10, 24]
+"#;
+
+fn bed(text: &str) -> BedCase {
+    toml::from_str::<BedCase>(text).unwrap().filled()
+}
+
+#[test]
+fn a_description_is_a_case_of_the_solver_and_a_run_of_discrete_elements() {
+    let of_dem = bed(BED);
+    of_dem.checked(std::path::Path::new("bed.toml")).unwrap_err();
+    let hot = "coefficient = 50\noutside = 293";
+    bed(&BED.replace(hot, "temperature = 293")).checked(std::path::Path::new("bed.toml")).unwrap();
+    let scene = SphereCase::new(&of_dem, "steel").unwrap();
+    assert_eq!(scene.shape, Shape::Cylinder { radius: 0.1, height: 0.4 });
+    let walls = ["0:300,60:400", "insulated", "h=50,T=293"].map(|wall| parse_wall(wall).unwrap());
+    assert_eq!(scene.walls, walls);
+    assert_eq!((scene.heat_source, scene.lid, scene.slack_layer), (Some(3000.0), Lid::Presses, 0.0));
+    assert_eq!(
+        (scene.wall_friction, scene.gravity, scene.cells.as_slice()),
+        (0.2, 9.81, [10, 24].as_slice())
+    );
+    assert!((of_dem.grains.number as f64 / scene.number() - 1.0).abs() < 1e-4, "{}", of_dem.grains.number);
+    // The options of 'case new' fill the same description.
+    let keys = scene.spheres.keys(0.2);
+    assert_eq!(Spheres::of_bed(&keys, 293.15), scene.spheres);
+    for (from, to, message) in [
+        ("pressing = 2e4", "pressing = 3e4", "lid.pressing = another pressure"),
+        ("pressing = 2e4", "strain = 1e-3", "lid.strain = given, allowed: only by 'msdd bed run'"),
+        ("height = 0.4\n", "", "container.height = not given"),
+        ("outside = 293\n", "", "heated = lid, allowed: one of temperature, flux"),
+        ("\"lid\"", "\"x_low\"", "heated.wall = x_low, allowed: side, floor, lid"),
+        ("[10, 24]", "[10]", "cells = [10], allowed: 2 numbers"),
+    ] {
+        assert!(BED.contains(from), "{from}");
+        let error = SphereCase::new(&bed(&BED.replacen(from, to, 1)), "steel").unwrap_err().to_string();
+        assert!(error.starts_with(message), "{error}");
+    }
 }

@@ -43,6 +43,14 @@ impl Shape {
         }
     }
 
+    /// Names of these walls in the description of a bed.
+    pub fn bed_walls(&self) -> &'static [&'static str] {
+        match self {
+            Self::Box(_) => &["x_low", "x_high", "y_low", "y_high", "floor", "lid"],
+            Self::Cylinder { .. } => &["side", "floor", "lid"],
+        }
+    }
+
     /// Lengths along the directions, with their names \[m\].
     pub fn lengths(&self) -> Vec<(&'static str, f64)> {
         match *self {

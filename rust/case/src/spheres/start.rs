@@ -2,8 +2,8 @@
 
 use super::material::Spheres;
 use crate::CaseError;
+use msdd_beds::case::GasKeys;
 use msdd_beds::effective::{BedMaterial, BedState};
-use msdd_beds::named_gases::GasName;
 use msdd_beds::radiation::{Dark, black};
 use msdd_beds::sizes::gas_factor;
 use msdd_beds::solid::{Roughness, Solid};
@@ -18,20 +18,10 @@ pub const LATERAL: f64 = 0.8;
 pub const FABRIC: [f64; 2] = [0.325, 0.35];
 /// Contacts per sphere that a bed under gravity has more than boxes with its solid fraction and stress.
 const MORE_CONTACTS: f64 = 0.4;
-/// Accommodation of the gas at the spheres, the solver's default.
-pub const ACCOMMODATION: f64 = 0.9;
 /// ln(R/h) where no gas matters.
 const ANY_GAS: f64 = 6.0;
 /// Porosities that are tried to find those that the law knows, in thousandths.
 const TRIED: std::ops::Range<u32> = 200..700;
-
-/// The gas between the spheres.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Gas {
-    pub name: GasName,
-    /// \[Pa\]
-    pub pressure: f64,
-}
 
 /// A bed that was poured.
 pub struct PouredBed {
@@ -91,7 +81,7 @@ impl PouredBed {
     }
 
     /// The bed with this porosity and gas at a temperature \[K\].
-    pub fn start(&self, porosity: f64, gas: &Gas, temperature: f64) -> InitialBed {
+    pub fn start(&self, porosity: f64, gas: &GasKeys, temperature: f64) -> InitialBed {
         let coordination = self.answer(porosity, None, ANY_GAS).coordination + MORE_CONTACTS;
         let material = self.material(gas);
         let between = material.gas_at(temperature);
@@ -122,7 +112,7 @@ impl PouredBed {
         InitialBed { coordination, conductivity, by_gas: conduction.gas, by_radiation }
     }
 
-    fn material(&self, gas: &Gas) -> BedMaterial {
+    fn material(&self, gas: &GasKeys) -> BedMaterial {
         let spheres = &self.spheres;
         let rough = Roughness { height_over_slope: spheres.roughness, hardness: spheres.hardness };
         let solid = Solid {
@@ -135,7 +125,7 @@ impl PouredBed {
             solid,
             gas: gas.name,
             gas_pressure: gas.pressure,
-            accommodation: ACCOMMODATION,
+            accommodation: gas.accommodation,
         }
     }
 }
@@ -144,6 +134,7 @@ impl PouredBed {
 mod tests {
     use super::*;
     use crate::scenes_for_tests::steel;
+    use msdd_beds::named_gases::GasName;
 
     /// DEM of cases/column (steel in air, 24 kPa, porosity 0.4037) have 4.70 contacts per sphere at the start and
     /// conduct 0.233 W/(m K) through contacts and 0.415 through the gas, along z. More of the contacts point there (fabric 0.3527), for
@@ -151,7 +142,7 @@ mod tests {
     #[test]
     fn a_poured_bed_is_that_of_discrete_elements() {
         let bed = |pressure| PouredBed::new(steel(), pressure).unwrap();
-        let start = |name, pressure| bed(24e3).start(0.4037, &Gas { name, pressure }, 293.15);
+        let start = |name, pressure| bed(24e3).start(0.4037, &GasKeys::new(name, pressure), 293.15);
         let (air, vacuum) = (start(GasName::Air, 101_325.0), start(GasName::Vacuum, 1.0));
         for (found, expected, error) in [
             (air.coordination, 4.70, 0.03),

@@ -2,6 +2,7 @@
 //! follows.
 
 use super::material::Spheres;
+use crate::CaseError;
 use crate::numbers::{plain, rounded};
 
 /// The material of a wall.
@@ -51,6 +52,23 @@ pub const MATERIALS: [WallMaterial; 4] = [
 ];
 
 impl WallMaterial {
+    /// One of [`MATERIALS`], the first one unless a name is given; none by the name `none`.
+    ///
+    /// # Errors
+    /// [`CaseError::Parameter`] for another name.
+    pub fn named(name: Option<&str>) -> Result<Option<Self>, CaseError> {
+        let name = name.unwrap_or(MATERIALS[0].name);
+        let known = MATERIALS.into_iter().find(|material| material.name == name);
+        match known {
+            None if name != "none" => Err(CaseError::Parameter {
+                key: "wall material".to_string(),
+                value: name.to_string(),
+                allowed: MATERIALS.map(|material| material.name).join(", ") + ", none",
+            }),
+            known => Ok(known),
+        }
+    }
+
     /// The entry `wall` of `spheresCoeffs`, for spheres on a polished wall: they have the asperities, and the softer of both yields.
     pub fn entry(&self, spheres: &Spheres) -> String {
         let rough = match spheres.roughness > 0.0 {

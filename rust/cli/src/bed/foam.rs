@@ -1,11 +1,11 @@
-//! `msdd bed case`: the bed of an `dem.toml` as a case folder of the solver.
+//! `msdd bed case`: the bed of a `bed.toml` as a case folder of the solver.
 
 use super::geometry::Geometry;
 use super::start::FirstRow;
 use crate::case::checkout;
 use crate::error::CliError;
 use clap::Args;
-use msdd_beds::dem_case::{DemCase, file_in};
+use msdd_beds::case::{BedCase, file_in};
 use msdd_beds::schedule::Schedule;
 use msdd_beds::sizes::MAX_SPREAD;
 use msdd_case::fields::{FieldKind, head, uniform};
@@ -32,11 +32,11 @@ and fabric. A bed between plates becomes a column of cells, a cylinder a wedge. 
 are, because a heated wall of DEM holds these, and a sixth of a diameter further in at a heated floor; where heat
 goes along the axis to a plate that is not heated, an eighth of a diameter before that.")]
 pub struct Arguments {
-    /// Folder with dem.toml.
+    /// Folder with bed.toml.
     case: PathBuf,
     /// The new case folder; it must not exist yet, or be empty.
     folder: PathBuf,
-    /// Results of DEM, whose first row is the start. Default: dem.csv next to dem.toml.
+    /// Results of DEM, whose first row is the start. Default: dem.csv next to bed.toml.
     #[arg(long, value_name = "FILE")]
     from: Option<PathBuf>,
     /// Write into a folder that is not empty: files of the same name are replaced, all others stay.
@@ -50,7 +50,7 @@ pub struct Arguments {
 pub fn run(arguments: &Arguments) -> Result<(), CliError> {
     let whole = check_folder(&arguments.folder, arguments.force)?;
     let checkout = checkout(arguments.checkout.as_deref())?;
-    let scene = DemCase::read(&arguments.case)?;
+    let scene = BedCase::read(&arguments.case)?;
     let from = arguments.from.clone().unwrap_or_else(|| arguments.case.join("dem.csv"));
     let start = FirstRow::read(&from)?;
     let name = whole.file_name().unwrap_or_default().to_string_lossy().into_owned();
@@ -65,7 +65,7 @@ pub fn run(arguments: &Arguments) -> Result<(), CliError> {
 }
 
 /// What the solver's case leaves out.
-fn notes(scene: &DemCase) -> Vec<String> {
+fn notes(scene: &BedCase) -> Vec<String> {
     let grains = (scene.grains.friction != 0.3).then(|| {
         format!("spheres have a friction of {}; the law of spheres is valid for 0.3", scene.grains.friction)
     });
@@ -80,7 +80,7 @@ fn notes(scene: &DemCase) -> Vec<String> {
 /// Those of [`Geometry::new`].
 pub fn files(
     folder: &Path,
-    scene: &DemCase,
+    scene: &BedCase,
     start: &FirstRow,
     name: &str,
     checkout: &Path,
@@ -154,7 +154,7 @@ fn table(schedule: &Schedule, value: impl Fn(f64) -> String) -> String {
     }
 }
 
-fn temperature(scene: &DemCase) -> String {
+fn temperature(scene: &BedCase) -> String {
     let start = plain(scene.time.initial_temperature);
     let mut walls = "    #includeEtc \"caseDicts/setConstraintTypes\"\n    \".*\"\n    {\n        type            zeroGradient;\n    }\n".to_string();
     for heated in &scene.heated {
@@ -162,7 +162,7 @@ fn temperature(scene: &DemCase) -> String {
             walls,
             "    {}\n    {{\n        type            uniformFixedValue;\n        uniformValue    {};\n        value           uniform {start};\n    }}",
             heated.wall,
-            table(&heated.temperature, plain)
+            heated.temperature.as_ref().map_or(String::new(), |temperature| table(temperature, plain))
         );
     }
     format!(
@@ -171,7 +171,7 @@ fn temperature(scene: &DemCase) -> String {
     )
 }
 
-fn properties(scene: &DemCase, start: &FirstRow, geometry: &Geometry) -> String {
+fn properties(scene: &BedCase, start: &FirstRow, geometry: &Geometry) -> String {
     let grains = &scene.grains;
     let fabric = geometry.tensor(start.fabric);
     let emissivity = grains.emissivity.as_ref().map_or(String::new(), |emissivity| {
@@ -205,7 +205,7 @@ fn properties(scene: &DemCase, start: &FirstRow, geometry: &Geometry) -> String 
     );
     let rigid = wall::entry(grains.wall_friction, grains.diameter);
     let friction = wall::friction(grains.wall_friction, grains.diameter);
-    let lid = match (&scene.lid.strain, &scene.lid.pressing) {
+    let lid = match scene.lid_moves() {
         (Some(strain), _) => {
             let moved = table(strain, |strain| geometry.along(-strain * geometry.depth()));
             format!("{rigid} {GIVE} displacement {moved};")
@@ -217,7 +217,7 @@ fn properties(scene: &DemCase, start: &FirstRow, geometry: &Geometry) -> String 
         (None, None) => format!("{rigid} {GIVE}"),
     };
     // Under a lid that goes on pressing it changes no stress.
-    let floor = if scene.lid.pressing.is_some() { "" } else { GIVE };
+    let floor = if scene.lid_moves().1.is_some() { "" } else { GIVE };
     let side = match &scene.shell {
         Some(shell) => {
             let radius = geometry.radii.map_or(0.0, |radii| radii[2]);
@@ -246,7 +246,7 @@ fn properties(scene: &DemCase, start: &FirstRow, geometry: &Geometry) -> String 
 }
 
 /// Where temperatures are recorded.
-pub fn probes(scene: &DemCase, geometry: &Geometry) -> Vec<[f64; 3]> {
+pub fn probes(scene: &BedCase, geometry: &Geometry) -> Vec<[f64; 3]> {
     let record = &scene.record;
     let middle = 0.5 * (record.heights[0] + record.heights[1]);
     let at = |&distance: &f64| match record.wall.as_str() {
@@ -257,7 +257,7 @@ pub fn probes(scene: &DemCase, geometry: &Geometry) -> Vec<[f64; 3]> {
     record.distances.iter().map(at).collect()
 }
 
-fn control(scene: &DemCase, geometry: &Geometry) -> String {
+fn control(scene: &BedCase, geometry: &Geometry) -> String {
     let places: Vec<String> = probes(scene, geometry)
         .iter()
         .map(|[x, y, z]| format!("({} {} {})", plain(*x), plain(*y), plain(*z)))
@@ -284,7 +284,7 @@ fn control(scene: &DemCase, geometry: &Geometry) -> String {
     )
 }
 
-fn readme(scene: &DemCase, start: &FirstRow, name: &str) -> String {
+fn readme(scene: &BedCase, start: &FirstRow, name: &str) -> String {
     format!(
         "# Case {name}\n\nA bed of {} spheres of {} m as the solver sees it, written by `msdd bed case`. `./Allrun` runs it, `./Allclean` removes the results.\n\n\
          It starts as DEM of `{}` do. Temperatures where these record them go to `postProcessing/probes/0/T`, means of stress and conductivity where they take theirs to `postProcessing/bulk`, pressures on the walls to `postProcessing/wallPressure`.\n\

@@ -1,18 +1,17 @@
-//! The bed of an `dem.toml` as the solver's mesh: a column of cells between plates, a wedge of a cylinder.
+//! The bed of a `bed.toml` as the solver's mesh: a column of cells between plates, a wedge of a cylinder.
 
 use super::start::FirstRow;
 use crate::error::CliError;
-use msdd_beds::dem_case::DemCase;
+use msdd_beds::case::BedCase;
 use msdd_case::numbers::plain;
+use msdd_case::spheres::blocks::{Across, Blocks};
+use msdd_case::spheres::shape::INNER;
 use msdd_rve::message::number;
-use std::fmt::Write;
 use std::path::Path;
 
-/// Cells along a direction in which heat flows, and half of the angle of the wedge of a cylinder [rad].
+/// Cells along a direction in which heat flows.
 const CELLS: f64 = 40.0;
-const HALF_ANGLE: f64 = 2.5 * std::f64::consts::PI / 180.0;
-/// Where the mesh of a cylinder ends before the axis, over its radius, and the width of the column of a box, in diameters.
-const INNER: f64 = 0.008;
+/// Width of the column of a box, in diameters.
 const WIDTH: f64 = 3.0;
 /// Where the mesh ends before a plate, in diameters. A plate that is heated holds the first layer of grains at its temperature: the mesh
 /// ends at their centres. On a floor, where these lie flat and the next layer lies in their hollows, the temperatures of the grains
@@ -42,7 +41,7 @@ impl Geometry {
     ///
     /// # Errors
     /// What the solver's mesh cannot have: sides of a box that are heated, averages and temperatures beyond its ends.
-    pub fn new(file: &Path, scene: &DemCase, depth: f64) -> Result<Self, CliError> {
+    pub fn new(file: &Path, scene: &BedCase, depth: f64) -> Result<Self, CliError> {
         let wrong = |key: &str, value: String, allowed: &str| {
             CliError::Message(format!("{}: {key} = {value}, allowed: {allowed}", file.display()))
         };
@@ -154,96 +153,21 @@ impl Geometry {
 
     pub fn mesh(&self) -> String {
         let (axial, radial) = self.cells;
-        let mut vertices = String::new();
-        let mut blocks = String::new();
-        let mut patches = [const { String::new() }; 6];
-        let [floor, lid, inner, side, front, back] = &mut patches;
-        match self.radii {
-            None => {
-                let width = WIDTH * self.diameter;
-                for z in self.levels {
-                    for [x, y] in [[0.0, 0.0], [width, 0.0], [width, width], [0.0, width]] {
-                        let _ = writeln!(vertices, "    ({} {} {})", plain(x), plain(y), plain(z));
-                    }
-                }
-                for (k, cells) in axial.iter().enumerate() {
-                    let n = |corner: usize| 4 * k + corner;
-                    let name = if k == 1 { "bulk " } else { "" };
-                    let _ = writeln!(
-                        blocks,
-                        "    hex ({} {} {} {} {} {} {} {}) {name}(1 1 {cells}) simpleGrading (1 1 1)",
-                        n(0),
-                        n(1),
-                        n(2),
-                        n(3),
-                        n(4),
-                        n(5),
-                        n(6),
-                        n(7)
-                    );
-                    for [a, b] in [[0, 1], [1, 2], [2, 3], [3, 0]] {
-                        let _ = write!(side, " ({} {} {} {})", n(a), n(b), n(b + 4), n(a + 4));
-                    }
-                }
-                *floor = " (0 3 2 1)".to_string();
-                *lid = " (12 13 14 15)".to_string();
-            }
-            Some(radii) => {
-                for sign in [-1.0, 1.0] {
-                    for r in radii {
-                        for x in self.levels {
-                            let (y, z) = (r * HALF_ANGLE.cos(), sign * r * HALF_ANGLE.sin());
-                            let _ = writeln!(vertices, "    ({} {y:.12e} {z:.12e})", plain(x));
-                        }
-                    }
-                }
-                // Corner at a level, a radius and a side of the wedge.
-                let n = |level: usize, radius: usize, half: usize| 12 * half + 4 * radius + level;
-                for (j, across) in radial.iter().enumerate() {
-                    for (k, along) in axial.iter().enumerate() {
-                        let name = if (k, j) == (1, 0) { "bulk " } else { "" };
-                        let face = |half: usize| {
-                            [n(k, j, half), n(k + 1, j, half), n(k + 1, j + 1, half), n(k, j + 1, half)]
-                        };
-                        let [a, b, c, d] = face(0);
-                        let [e, f, g, h] = face(1);
-                        let _ = writeln!(
-                            blocks,
-                            "    hex ({a} {b} {c} {d} {e} {f} {g} {h}) {name}({along} {across} 1) simpleGrading (1 1 1)"
-                        );
-                        let _ = write!(front, " ({a} {d} {c} {b})");
-                        let _ = write!(back, " ({e} {f} {g} {h})");
-                        if k == 0 {
-                            let _ = write!(floor, " ({a} {e} {h} {d})");
-                        }
-                        if k == 2 {
-                            let _ = write!(lid, " ({b} {c} {g} {f})");
-                        }
-                        if j == 0 {
-                            let _ = write!(inner, " ({a} {b} {f} {e})");
-                        } else {
-                            let _ = write!(side, " ({d} {h} {g} {c})");
-                        }
-                    }
-                }
-            }
-        }
-        let patch = |name: &str, kind: &str, faces: &str| match faces {
-            "" => String::new(),
-            _ => format!("    {name}\n    {{\n        type {kind};\n        faces ({} );\n    }}\n", faces),
+        let width = WIDTH * self.diameter;
+        let (across, patches, order): (_, _, &[usize]) = match self.radii {
+            None => (
+                Across::Box([width; 2], [1; 2]),
+                ["side", "side", "side", "side", "floor", "lid"],
+                &[4, 5, 0],
+            ),
+            Some(radii) => (
+                Across::Wedge(radii.to_vec(), radial.to_vec()),
+                ["inner", "side", "floor", "lid", "front", "back"],
+                &[2, 3, 0, 1, 4, 5],
+            ),
         };
-        let [floor, lid, inner, side, front, back] = patches;
-        let boundary: String = [
-            ("floor", "wall", floor),
-            ("lid", "wall", lid),
-            ("inner", "wall", inner),
-            ("side", "wall", side),
-            ("front", "wedge", front),
-            ("back", "wedge", back),
-        ]
-        .iter()
-        .map(|(name, kind, faces)| patch(name, kind, faces))
-        .collect();
-        format!("vertices\n(\n{vertices});\n\nblocks\n(\n{blocks});\n\nboundary\n(\n{boundary});\n")
+        let zone = Some(("bulk", [1, 0]));
+        let (levels, cells) = (self.levels.to_vec(), axial.to_vec());
+        Blocks { across, levels, cells, patches, order, zone, digits: 13 }.text()
     }
 }

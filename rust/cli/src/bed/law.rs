@@ -4,7 +4,7 @@ use super::start::packings;
 use crate::error::CliError;
 use crate::spheres::beds::track;
 use clap::Args;
-use msdd_beds::dem_case::{DemCase, FILE, file_in};
+use msdd_beds::case::{BedCase, FILE, file_in};
 use msdd_beds::packings::column;
 use msdd_files::{check_target, list, read_text, write};
 use msdd_spheres::law::effective_modulus;
@@ -28,7 +28,7 @@ under its weight, a small error of the strain changes the pressure by decades. '
 load has grown, in units of 1e-5: of the spheres from their strain and pressure, and of the law. 'shear' is the length of the
 path of the shear strain.")]
 pub struct Arguments {
-    /// Folders with dem.toml and dem-<seed>.csv, or dem.csv alone; or folders of such folders.
+    /// Folders with bed.toml and dem-<seed>.csv, or dem.csv alone; or folders of such folders.
     #[arg(required = true)]
     folders: Vec<PathBuf>,
     /// A model file of spheres; default: the one that is compiled in.
@@ -116,7 +116,7 @@ pub(super) fn results_of(folder: &Path) -> Result<Vec<(Option<u64>, PathBuf)>, C
 }
 
 fn paths_of(law: &Law, folder: &Path) -> Result<Vec<Course>, CliError> {
-    let scene = DemCase::read(folder)?;
+    let scene = BedCase::read(folder)?;
     let modulus = effective_modulus(scene.grains.young_modulus, scene.grains.poisson_ratio);
     let whole = folder.canonicalize().unwrap_or_else(|_| folder.to_path_buf());
     let bed = whole.file_name().unwrap_or_default().display().to_string();

@@ -14,7 +14,7 @@ mod table;
 
 use crate::error::CliError;
 use clap::{Args, Subcommand};
-use msdd_beds::case::{BedCase, CaseError, Vary};
+use msdd_beds::case::{BedCase, CaseError, Vary, file_in};
 use msdd_beds::experiment::{self, Measured};
 use msdd_files::{check_writable, write};
 use std::path::{Path, PathBuf};
@@ -23,13 +23,13 @@ use std::path::{Path, PathBuf};
 pub enum Command {
     /// Pour a bed of equal spheres, press and turn it, heat it, and compare its temperatures with measured ones.
     Run(RunArguments),
-    /// Write a case folder of the solver for the bed of an dem.toml.
+    /// Write a case folder of the solver for the bed of a bed.toml.
     ///
     /// Walls, heating, lid and shell are those of the file. Fixed or moved plates have a slack of 1 diameter, of which a tenth
     /// is recovered (slackLayer, slackRecovery): the mean of the beds that were measured, for any friction of the plates. `msdd bed slack`
     /// measures it for this bed. Fixed walls have the friction of a bed for wall_friction.
     Case(foam::Arguments),
-    /// Write the dem.toml of a case of the solver with spheres, for `msdd bed run`.
+    /// Write the bed.toml of a case of the solver with spheres, for `msdd bed run`.
     ///
     /// The reverse of `msdd bed case`: box or cylinder, spheres, gas, walls with a temperature, gravity, lid, shell and
     /// friction of walls. Heat from inside and other conditions of walls are left out and named.
@@ -51,10 +51,10 @@ pub enum Command {
   msdd bed run cases/beaulieu --vary     what the uncertain inputs change, one at a time
   msdd bed run cases/store --packings 2  the mean of two packings, and how much they differ
 
-The folder holds bed.toml (keys: the book, Reference, Beds by DEM) and, if there is an experiment, its
-measurements. If it holds dem.toml instead, a bed whose walls move while heat flows, the only result is dem.csv; with
+The folder holds bed.toml (keys: the book, Reference, Description of a bed) and, if there is an experiment, its
+measurements. Of a bed without a plate, whose walls move while heat flows, the only result is dem.csv; with
 --packings it is the mean, dem-scatter.csv is the standard deviation of one packing, and dem-<seed>.csv are the single
-ones: what is there already, from the same dem.toml, is not computed again. Into the folder of results of a bed.toml go
+ones: what is there already, from the same bed.toml, is not computed again. Into the folder of results of a bed with a plate go
   temperature.csv   T over time at the probes, without and with contact resistance at the plate
   comparison.csv    differences from the measurements
   bed.json          the packing, heat and its balance, and how each stage came to rest
@@ -64,7 +64,7 @@ ones: what is there already, from the same dem.toml, is not computed again. Into
 The plate is taken in two ways: 'held', the first layer of grains has its temperature, the most that any plate can do; and
 'resisting', heat passes through contacts and gas between plate and grains.")]
 pub struct RunArguments {
-    /// Folder with bed.toml or dem.toml.
+    /// Folder with bed.toml.
     case: PathBuf,
     /// Folder for the results. Default: results/beds/ and the name of the case.
     #[arg(long, value_name = "DIR")]
@@ -72,13 +72,13 @@ pub struct RunArguments {
     /// Seed of the packing. Default: from the case.
     #[arg(long, value_parser = clap::value_parser!(u64).range(..=i64::MAX as u64))]
     seed: Option<u64>,
-    /// Packings with this many seeds, from the case's seed on; with an dem.toml. Default: one packing.
+    /// Packings with this many seeds, from the case's seed on; of a bed without a plate. Default: one packing.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(2..=1000))]
     packings: Option<u32>,
     /// Compute it again with each value of the blocks [[vary]] of the case, one changed at a time.
     #[arg(long)]
     vary: bool,
-    /// Begin a run of more than an hour without asking; with an dem.toml.
+    /// Begin a run of more than an hour without asking; of a bed without a plate.
     #[arg(long)]
     yes: bool,
     /// Number of threads; the results do not depend on it.
@@ -98,13 +98,13 @@ pub fn run(command: &Command) -> Result<(), CliError> {
 
 fn run_case(arguments: &RunArguments) -> Result<(), CliError> {
     let folder = &arguments.case;
-    if msdd_beds::dem_case::file_in(folder).exists() {
+    let mut case = BedCase::read(folder)?;
+    if case.plate.is_none() {
         return run_moving(arguments);
     }
     if arguments.packings.is_some() {
-        return Err(CliError::Message("--packings, allowed: with an dem.toml".to_string()));
+        return Err(CliError::Message("--packings, allowed: of a bed without a plate".to_string()));
     }
-    let mut case = BedCase::read(folder)?;
     if let Some(seed) = arguments.seed {
         case.seed = seed;
     }
@@ -116,7 +116,7 @@ fn run_case(arguments: &RunArguments) -> Result<(), CliError> {
     for file in files::NAMES {
         check_writable(&out.join(file))?;
     }
-    let failed = |source| CliError::Bed { file: folder.join(msdd_beds::case::FILE), source };
+    let failed = |source| CliError::Bed { file: file_in(folder), source };
     let threads = arguments.threads as usize;
     let results = results::compute(case, vary, measured, threads, failed, |results| {
         // All files at first; then what one value changes is added to one of them.
@@ -145,7 +145,7 @@ fn results_folder(arguments: &RunArguments) -> PathBuf {
 
 fn run_moving(arguments: &RunArguments) -> Result<(), CliError> {
     if arguments.vary {
-        return Err(CliError::Message("--vary, allowed: with a bed.toml".to_string()));
+        return Err(CliError::Message("--vary, allowed: of a bed with a plate".to_string()));
     }
     let out = results_folder(arguments);
     let effort = moving::Effort { threads: arguments.threads as usize, yes: arguments.yes };
@@ -160,7 +160,7 @@ fn measurements(folder: &Path, case: &BedCase) -> Result<Vec<Measured>, CliError
     let Some(experiment) = &case.experiment else { return Ok(Vec::new()) };
     let file = folder.join(&experiment.file);
     let measured = experiment::read(&file)?;
-    experiment::check(&file, &measured, &case.heat.probes)?;
+    experiment::check(&file, &measured, &case.record.distances)?;
     Ok(measured)
 }
 

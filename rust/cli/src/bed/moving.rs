@@ -1,11 +1,11 @@
-//! `msdd bed run` of a folder with `dem.toml`: a bed whose walls move while heat flows.
+//! `msdd bed run` of a folder with `bed.toml`: a bed whose walls move while heat flows.
 
 use crate::confirm;
 use crate::error::CliError;
 use crate::progress::Progress;
+use msdd_beds::case::{BedCase, file_in};
 use msdd_beds::cost::estimate;
 use msdd_beds::coupled::{MAX_OVERLAP, Prepared, Row, Run, prepare, run, side_friction};
-use msdd_beds::dem_case::{DemCase, file_in};
 use msdd_beds::exchange::Exchange;
 use msdd_beds::mobilised::mobilised;
 use msdd_beds::packings::{at_start, join};
@@ -32,7 +32,7 @@ pub struct Effort {
 
 impl Effort {
     /// Asks before packings of a bed that take long.
-    fn ask(self, scene: &DemCase, packings: f64) -> Result<(), CliError> {
+    fn ask(self, scene: &BedCase, packings: f64) -> Result<(), CliError> {
         let advice = "Fewer spheres (grains.number, with a smaller base or radius), a softer simulated_young_modulus, or fewer intervals and \
                       steps take less";
         confirm::long_run(packings * estimate(scene, self.threads).seconds, advice, self.yes)
@@ -82,7 +82,7 @@ pub fn compute_packings(
             continue;
         }
         outln!("packing {} of {count}, seed {seed}", number + 1);
-        let text = begin + &simulate(folder, &DemCase { seed, ..first.clone() }, effort.threads)?;
+        let text = begin + &simulate(folder, &BedCase { seed, ..first.clone() }, effort.threads)?;
         write(&target, text.as_bytes())?;
         tables.push(text);
     }
@@ -101,13 +101,13 @@ fn origin(input: &str, seed: u64) -> String {
     format!("# of {}, seed {seed}, engine {}\n", hash(input), msdd_beds::ENGINE_VERSION)
 }
 
-fn scene(folder: &Path, seed: Option<u64>) -> Result<DemCase, CliError> {
-    let scene = DemCase::read(folder)?;
-    Ok(DemCase { seed: seed.unwrap_or(scene.seed), ..scene })
+fn scene(folder: &Path, seed: Option<u64>) -> Result<BedCase, CliError> {
+    let scene = BedCase::read(folder)?;
+    Ok(BedCase { seed: seed.unwrap_or(scene.seed), ..scene })
 }
 
 /// The table of a packing; prints a summary.
-fn simulate(folder: &Path, scene: &DemCase, threads: usize) -> Result<String, CliError> {
+fn simulate(folder: &Path, scene: &BedCase, threads: usize) -> Result<String, CliError> {
     let failed = |source| CliError::Bed { file: file_in(folder), source };
     let mut progress = Progress::new("bed", 1000);
     let mut show = |percent: f64, note: &str| progress.set((10.0 * percent) as u64, 1000, note);
@@ -128,7 +128,7 @@ fn simulate(folder: &Path, scene: &DemCase, threads: usize) -> Result<String, Cl
 }
 
 /// What the law of spheres needs to know of the start, in words.
-fn start(scene: &DemCase, mobilisation: f64, [first, second, third]: [f64; 3]) -> String {
+fn start(scene: &BedCase, mobilisation: f64, [first, second, third]: [f64; 3]) -> String {
     let axes = if scene.record.radius.is_some() { "radius, around the axis, axis" } else { "x, y, z" };
     format!(
         "friction at the start: {mobilisation:.3} of the force at which the contacts slide, for the law of spheres 'mobilised {:.2};'\n\
@@ -137,7 +137,7 @@ fn start(scene: &DemCase, mobilisation: f64, [first, second, third]: [f64; 3]) -
     )
 }
 
-fn summary(scene: &DemCase, prepared: &Prepared, found: &Run) -> String {
+fn summary(scene: &BedCase, prepared: &Prepared, found: &Run) -> String {
     let mut text = format!("{} grains, seed {}\n", prepared.simulation.spheres.len(), scene.seed);
     for (stage, rest) in &prepared.stages {
         let _ = writeln!(text, "{stage:<8}{:>9} steps", rest.steps);

@@ -18,7 +18,7 @@ pub fn temperature(results: &Results) -> Result<String, CliError> {
             list.push((name, series(record.rows.clone(), Style::line(colour(number), line))));
         }
     }
-    for (number, &distance) in results.case.heat.probes.iter().enumerate() {
+    for (number, &distance) in results.case.record.distances.iter().enumerate() {
         let here = results.measured.iter().filter(|m| (m.distance - distance).abs() < 1e-6);
         let points = here.map(|m| (m.time, m.temperature)).collect();
         let style = Style { hollow: true, size: 3, ..Style::marker(colour(number), Marker::Circle) };

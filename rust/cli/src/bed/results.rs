@@ -48,7 +48,7 @@ pub struct Results {
 /// Stages of handling a bed.
 fn stages(case: &BedCase) -> Vec<&'static str> {
     let (lid, turn) = (case.lid.as_ref().map(|_| "lid"), case.turn.as_ref().map(|_| "turn"));
-    [Some("pour"), lid, turn, case.plate.pressure.map(|_| "plate")].into_iter().flatten().collect()
+    [Some("pour"), lid, turn, case.plate().pressure.map(|_| "plate")].into_iter().flatten().collect()
 }
 
 /// Progress over all beds and runs.

@@ -3,7 +3,7 @@
 use super::law::{folders_of, results_of};
 use crate::error::CliError;
 use clap::Args;
-use msdd_beds::dem_case::DemCase;
+use msdd_beds::case::BedCase;
 use msdd_beds::plates::{self, Give};
 use msdd_files::{check_target, read_text, write};
 use serde::Serialize;
@@ -19,7 +19,7 @@ Spheres at a plate find no hold, and a bed between plates is shortened by more t
 up: the keys of a wall in the solver's granularProperties are slackLayer, and slackRecovery = back/slackLayer. The second number is how much one packing
 differs from the mean. A lid of constant pressure gives no value.")]
 pub struct Arguments {
-    /// Folders with dem.toml and dem-<seed>.csv, or dem.csv alone; or folders of such folders.
+    /// Folders with bed.toml and dem-<seed>.csv, or dem.csv alone; or folders of such folders.
     #[arg(required = true)]
     folders: Vec<PathBuf>,
     /// Write the numbers to this file, too.
@@ -62,7 +62,7 @@ pub fn run(arguments: &Arguments) -> Result<(), CliError> {
 }
 
 fn bed(folder: &Path) -> Result<PlateCompliance, CliError> {
-    let scene = DemCase::read(folder)?;
+    let scene = BedCase::read(folder)?;
     let mut gives: Vec<Give> = Vec::new();
     for (_, file) in results_of(folder)? {
         let give = plates::give(&read_text(&file)?, scene.grains.diameter);

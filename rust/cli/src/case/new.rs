@@ -6,11 +6,13 @@ use super::sphere_options::{self, SphereOptions};
 use crate::error::CliError;
 use crate::progress::Progress;
 use clap::Args;
+use msdd_beds::case::BedCase;
+use msdd_case::CaseError;
 use msdd_case::folder::{self, File, check_folder, files};
 use msdd_case::material::{DISCS, SPHERES};
 use msdd_case::packing::{Effort, pack};
 use msdd_case::scene::DiscCase;
-use msdd_case::spheres;
+use msdd_case::spheres::{self, scene::SphereCase};
 use msdd_case::values::packing_rows;
 use std::io::IsTerminal;
 use std::path::{Path, PathBuf};
@@ -27,6 +29,7 @@ takes the proposal. Without a terminal, or with --yes, all proposals are taken.
 Examples:
   msdd case new ~/beds/bed                            prompts
   msdd case new store --yes --spheres --radius 0.1 --height 0.4 --side 400 --bottom 293 --gas helium
+  msdd case new store --from mybed/bed.toml           the bed of a description
   msdd case new bed --yes                             discs: the model material of the paper, hot on the left
   msdd case new bed --yes --material glass --box 0.05x0.02 --left 350 --pressure 2e6
   msdd case new bed --yes --box 0.5x0.2 --left insulated --right insulated --top 50 --bottom 50 --heat-source 3000
@@ -59,6 +62,10 @@ pub struct Arguments {
     /// MSDD's checkout, whose solver the case will run. Default: the one that this program was built in.
     #[arg(long, value_name = "DIR")]
     checkout: Option<PathBuf>,
+    /// The bed of a file bed.toml, as `msdd bed run` and `msdd bed from-case` read and write it, instead of options. The file needs
+    /// `container.height`; cells, points and whatever else its section `[solver]` does not give are proposals.
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["spheres", "ask", "packings", "seed", "CommonOptions", "GrainWishes", "SphereOptions"])]
+    from: Option<PathBuf>,
     #[command(flatten)]
     wishes: CommonOptions,
     /// Number of boxes of 500 discs that are packed to find the initial state; their averages are averaged. Default: 16.
@@ -86,9 +93,12 @@ pub fn run(arguments: &Arguments) -> Result<(), CliError> {
     let terminal = std::io::stdin().is_terminal() && std::io::stdout().is_terminal();
     let prompter = Prompter { interactive: arguments.ask || (terminal && !arguments.yes) };
     let name = whole.file_name().unwrap_or_default().to_string_lossy();
-    let made = match asks_for_spheres(arguments, &prompter)? {
-        true => spheres_made(arguments, &prompter, &name, &checkout)?,
-        false => discs_made(arguments, &prompter, &name, &checkout)?,
+    let made = if let Some(file) = &arguments.from {
+        spheres_made(&of_file(file)?, &name, &checkout)?
+    } else if asks_for_spheres(arguments, &prompter)? {
+        spheres_made(&of_options(arguments, &prompter)?, &name, &checkout)?
+    } else {
+        discs_made(arguments, &prompter, &name, &checkout)?
     };
     folder::write(folder, &made)?;
     outln!("written: {}", folder.display());
@@ -120,12 +130,13 @@ fn asks_for_spheres(arguments: &Arguments, prompter: &Prompter) -> Result<bool, 
     })
 }
 
-fn spheres_made(
-    arguments: &Arguments,
-    prompter: &Prompter,
-    name: &str,
-    checkout: &Path,
-) -> Result<Vec<File>, CliError> {
+fn of_file(file: &Path) -> Result<SphereCase, CliError> {
+    let bed = BedCase::read_file(file)?;
+    let named = |error: CaseError| CliError::Message(format!("{}: {error}", file.display()));
+    SphereCase::new(&bed, &format!("spheres of {}", file.display())).map_err(named)
+}
+
+fn of_options(arguments: &Arguments, prompter: &Prompter) -> Result<SphereCase, CliError> {
     // Not by clap: where an option conflicts with --spheres, it forgets that others require --spheres.
     let of_discs = [
         ("--packings", arguments.packings.is_some()),
@@ -137,12 +148,15 @@ fn spheres_made(
         let message = format!("{option} cannot be used with --spheres: it belongs to discs");
         return Err(CliError::Message(message));
     }
-    let scene = arguments.sphere_wishes.scene(&arguments.wishes, prompter)?;
-    outln!("{}", sphere_options::summary(&scene)?);
+    arguments.sphere_wishes.scene(&arguments.wishes, prompter)
+}
+
+fn spheres_made(scene: &SphereCase, name: &str, checkout: &Path) -> Result<Vec<File>, CliError> {
+    outln!("{}", sphere_options::summary(scene)?);
     for note in scene.notes() {
         outln!("Note: {note}");
     }
-    Ok(spheres::folder::files(&scene, name, checkout)?)
+    Ok(spheres::folder::files(scene, name, checkout)?)
 }
 
 fn discs_made(

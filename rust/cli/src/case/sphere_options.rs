@@ -4,30 +4,29 @@ use super::common_options::{CommonOptions, HOTTER, MechanicsName, WALL_HELP, col
 use super::prompts::{Prompter, number, temperature};
 use crate::error::CliError;
 use clap::{Args, ValueEnum};
+use msdd_beds::case::{BedCase, End, Flow, GasKeys, Lid, RecordKeys, Shell, SolverKeys, Time, Vessel};
 use msdd_beds::named_gases::GasName;
 use msdd_beds::property::Property;
+use msdd_beds::schedule::Schedule;
+use msdd_case::CaseError;
 use msdd_case::material::OF_SPHERES;
 use msdd_case::numbers::{plain, rounded};
 use msdd_case::ranges;
 use msdd_case::scene::{Mechanics, parse_sides, parse_wall};
 use msdd_case::spheres::material::Spheres;
 use msdd_case::spheres::scene::{
-    BED_HAS, Flow, GRAVITY, Lid, Shell, SphereCase, check_porosity, check_pressure,
+    BED_HAS, GRAVITY, SphereCase, check_porosity, check_pressure, heated, usual_porosity,
 };
 use msdd_case::spheres::shape::Shape;
-use msdd_case::spheres::start::Gas;
 use msdd_case::spheres::wall::{self, WallMaterial};
 use msdd_case::values::describe;
 use msdd_case::walls::WallOverTime;
 use std::f64::consts::PI;
 
-/// Proposed porosity, of beds that were poured with a friction of 0.3, and pressure on the top [Pa].
-const POROSITY: f64 = 0.4;
+/// Proposed pressure on the top [Pa].
 const PRESSURE: f64 = 2e4;
 /// Proposed pressure of the gas \[Pa\].
 const GAS_PRESSURE: f64 = 101_300.0;
-/// By how many diameters spheres give way at plates that stay: about the mean of the poured beds, see `msdd bed slack`.
-const GIVE: f64 = 1.0;
 /// Proposed lengths of a bed in diameters of a sphere: width, depth and height of a box, radius and height of a cylinder.
 const BOX: [f64; 3] = [40.0, 15.0, 15.0];
 const CYLINDER: [f64; 2] = [15.0, 60.0];
@@ -107,7 +106,7 @@ pub struct SphereOptions {
     /// Material of the walls that heat passes, from which the resistance between wall and spheres follows; `none`: walls have
     /// their temperature where the mesh ends. Allowed: `steel`, `stainless-steel`, `aluminium`, `glass`, `none`. Default: `steel`.
     #[arg(long, value_name = "NAME", value_parser = parse_wall_material, requires = "spheres")]
-    wall_material: Option<WallChoice>,
+    wall_material: Option<String>,
     /// Gravity [m/s2], downwards; 0: a bed without weight. Allowed: 0 to 1000; 0 with `--mechanics none`. Default: 9.81; 0
     /// with `--mechanics none`.
     #[arg(long, value_name = "M/S2", requires = "spheres")]
@@ -126,7 +125,7 @@ enum FlowEnd {
     Bottom,
 }
 
-#[derive(Clone, Copy, ValueEnum)]
+#[derive(Clone, Copy, PartialEq, ValueEnum)]
 enum LidName {
     Presses,
     Stays,
@@ -137,20 +136,11 @@ fn parse_gas(text: &str) -> Result<GasName, String> {
     GasName::ALL.into_iter().find(|gas| gas.as_str() == text).ok_or_else(names)
 }
 
-/// The material of walls, or none.
-#[derive(Clone, Copy)]
-struct WallChoice(Option<WallMaterial>);
-
-fn parse_wall_material(text: &str) -> Result<WallChoice, String> {
-    let names =
-        || wall::MATERIALS.iter().map(|material| material.name).collect::<Vec<_>>().join(", ") + ", none";
-    match text {
-        "none" => Ok(WallChoice(None)),
-        _ => {
-            let named = wall::MATERIALS.into_iter().find(|material| material.name == text);
-            named.map(|material| WallChoice(Some(material))).ok_or_else(names)
-        }
-    }
+fn parse_wall_material(text: &str) -> Result<String, String> {
+    WallMaterial::named(Some(text)).map(|_| text.to_string()).map_err(|error| match error {
+        CaseError::Parameter { allowed, .. } => allowed,
+        other => other.to_string(),
+    })
 }
 
 fn parse_shell(text: &str) -> Result<Shell, String> {
@@ -192,40 +182,61 @@ impl SphereOptions {
         let (porosity, pressure) = ask_start(common, prompter, &spheres)?;
         let mechanics = common.ask_mechanics(prompter, MechanicsName::Equilibrium)?;
         let (lid, wall_friction, gravity) = self.ask_load(prompter, mechanics)?;
-        let stays = lid == Lid::Stays && mechanics == Mechanics::Equilibrium;
-        let mut scene = SphereCase {
-            shape,
-            cells: vec![1; shape.lengths().len()],
-            walls,
-            initial_temperature,
-            material,
-            spheres,
-            gas,
-            flow,
-            porosity,
-            pressure,
-            mechanics,
-            lid,
-            shell: self.shell,
-            slack_layer: self.slack_layer.unwrap_or(if stays { GIVE } else { 0.0 }),
-            wall_friction,
-            wall_material: self.wall_material.map_or(Some(wall::MATERIALS[0]), |choice| choice.0),
-            gravity,
-            heat_source: common.ask_heat(prompter)?.filter(|&value| value != 0.0),
-            end_time: 1.0,
-            tolerance: common.tolerance,
-            steady: common.steady,
-            probes: common.probes.iter().map(|point| point.0.clone()).collect(),
+        let heat = common.ask_heat(prompter)?.filter(|&value| value != 0.0);
+        let (base, radius, height) = match shape {
+            Shape::Box([x, y, z]) => (Some([x, y]), None, z),
+            Shape::Cylinder { radius, height } => (None, Some(radius), height),
         };
-        scene.check()?;
-        scene.cells = ask_cells(common, prompter, &scene)?;
-        if scene.probes.is_empty() {
-            scene.probes = shape.proposed_probes(scene.steepest());
-        }
-        scene.check()?;
-        scene.end_time = common.ask_end(prompter, scene.proposed_end()?)?;
-        scene.check()?;
-        Ok(scene)
+        let presses = lid == LidName::Presses;
+        let mut bed = BedCase {
+            seed: 1,
+            // By the volume of the spheres.
+            heat_source: heat.map(|heat| heat / (1.0 - porosity)),
+            grains: spheres.keys(wall_friction),
+            container: Vessel {
+                base,
+                radius,
+                endless: false,
+                gravity,
+                height: Some(height),
+                porosity: Some(porosity),
+            },
+            lid: Some(Lid {
+                pressure: Some(pressure),
+                pressing: presses.then_some(Schedule::Constant(pressure)),
+                ..Lid::default()
+            }),
+            turn: None,
+            gas,
+            heated: shape
+                .bed_walls()
+                .iter()
+                .zip(&walls)
+                .filter_map(|(name, wall)| heated(name, wall))
+                .collect(),
+            plate: None,
+            flow,
+            shell: self.shell.clone(),
+            sides: None,
+            time: Time::new(initial_temperature, 1.0),
+            record: RecordKeys::default(),
+            solver: SolverKeys {
+                cells: None,
+                mechanics: Some(mechanics),
+                slack_layer: self.slack_layer,
+                wall_material: self.wall_material.clone(),
+                tolerance: common.tolerance,
+                steady: common.steady,
+                probes: common.probes.iter().map(|point| point.0.clone()).collect(),
+            },
+            experiment: None,
+            vary: Vec::new(),
+        };
+        let scene = SphereCase::new(&bed, &material)?;
+        bed.solver.cells = Some(ask_cells(common, prompter, &scene)?);
+        let scene = SphereCase::new(&bed, &material)?;
+        bed.time.end = common.ask_end(prompter, scene.proposed_end()?)?;
+        Ok(SphereCase::new(&bed, &material)?)
     }
 
     /// The name of the material, the spheres, and the usual temperature [K].
@@ -350,7 +361,7 @@ impl SphereOptions {
         Ok(walls.iter().map(given).collect())
     }
 
-    fn ask_gas(&self, prompter: &Prompter) -> Result<Gas, CliError> {
+    fn ask_gas(&self, prompter: &Prompter) -> Result<GasKeys, CliError> {
         let name = prompter.value(
             self.gas,
             "The gas between the spheres: air, nitrogen, helium, argon or vacuum.",
@@ -368,17 +379,17 @@ impl SphereOptions {
                 prompter.within(number, |&value| ranges::gas_pressure(value)),
             )?,
         };
-        Ok(Gas { name, pressure })
+        Ok(GasKeys::new(name, pressure))
     }
 
     fn given_flow(&self) -> Option<Flow> {
         let (mass, temperature) = (self.flow?, self.flow_temperature?);
-        let upwards = matches!(self.flow_from, Some(FlowEnd::Bottom));
-        (mass != 0.0).then_some(Flow { mass, temperature, upwards })
+        let from = if matches!(self.flow_from, Some(FlowEnd::Bottom)) { End::Bottom } else { End::Top };
+        (mass != 0.0).then_some(Flow { mass, temperature, from })
     }
 
     /// What the top does, the friction of walls, and gravity, where spheres move.
-    fn ask_load(&self, prompter: &Prompter, mechanics: Mechanics) -> Result<(Lid, f64, f64), CliError> {
+    fn ask_load(&self, prompter: &Prompter, mechanics: Mechanics) -> Result<(LidName, f64, f64), CliError> {
         if mechanics == Mechanics::None {
             let options = [
                 ("--lid", self.lid.is_some()),
@@ -388,7 +399,7 @@ impl SphereOptions {
             if let Some((option, _)) = options.iter().find(|(_, given)| *given) {
                 return Err(wrong(option, "given", "with --mechanics equilibrium, where spheres move"));
             }
-            return Ok((Lid::default(), 0.0, self.gravity.unwrap_or(0.0)));
+            return Ok((LidName::Presses, 0.0, self.gravity.unwrap_or(0.0)));
         }
         let lid = prompter.value(
             self.lid,
@@ -407,10 +418,6 @@ impl SphereOptions {
         let help = "Gravity points downwards; 0 leaves the weight of the bed out.";
         let read = prompter.within(number, |&value| ranges::gravity(value));
         let gravity = prompter.value(self.gravity, help, "Gravity [m/s2]", &plain(GRAVITY), read)?;
-        let lid = match lid {
-            LidName::Presses => Lid::Presses,
-            LidName::Stays => Lid::Stays,
-        };
         Ok((lid, wall_friction, gravity))
     }
 }
@@ -450,7 +457,7 @@ fn ask_start(common: &CommonOptions, prompter: &Prompter, spheres: &Spheres) -> 
         common.porosity,
         "The porosity at the start: 1 - volume of the spheres over the volume. Beds that were poured have 0.38 to 0.42.",
         "Porosity",
-        &plain(rounded(1.0 - (1.0 - POROSITY) / spheres.equal_density(), 3)),
+        &plain(usual_porosity(spheres)),
         prompter.within(number, |&value| check_porosity(spheres, pressure, value)),
     )?;
     Ok((porosity, pressure))
@@ -467,8 +474,7 @@ fn ask_cells(
         [radius, height] => common.given_cells([radius, height])?.map(Vec::from),
         _ => None,
     };
-    let proposed = scene.shape.proposed_cells(&scene.varies(), 2.0 * scene.spheres.radius());
-    let proposal = proposed.iter().map(ToString::to_string).collect::<Vec<_>>().join("x");
+    let proposal = scene.cells.iter().map(ToString::to_string).collect::<Vec<_>>().join("x");
     let help = "The bed is divided into cells, which should not be smaller than a sphere. More cells resolve more and take longer.";
     let allowed = || format!("{} numbers with an x between, such as {proposal}", lengths.len());
     let read = |text: &str| {

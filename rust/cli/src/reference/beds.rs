@@ -8,7 +8,7 @@ use crate::bed::start::{FirstRow, packings};
 use crate::case::checkout;
 use crate::error::CliError;
 use clap::Args;
-use msdd_beds::dem_case::{DemCase, file_in};
+use msdd_beds::case::{BedCase, file_in};
 use msdd_beds::packings::column;
 use msdd_case::folder;
 use msdd_case::numbers::plain;
@@ -53,7 +53,7 @@ const FILLED: f64 = 0.6;
 DEM results are made by 'msdd bed run'; cases/beds/make computes those that are not there."
 )]
 pub struct Arguments {
-    /// The plan: a TOML file with blocks [[scenes]] of a name and a use. Beside it stands a folder of each name with dem.toml and
+    /// The plan: a TOML file with blocks [[scenes]] of a name and a use. Beside it stands a folder of each name with bed.toml and
     /// the files dem-<seed>.csv of its packings.
     #[arg(long, value_name = "FILE")]
     plan: PathBuf,
@@ -92,7 +92,7 @@ pub fn run(arguments: &Arguments) -> Result<(), CliError> {
     let wanted = |scene: &&PlannedBed| arguments.only.is_empty() || arguments.only.contains(&scene.name);
     for (number, planned) in plan.scenes.iter().filter(wanted).enumerate() {
         let folder = root.join(&planned.name);
-        let bed = DemCase::read(&folder)?;
+        let bed = BedCase::read(&folder)?;
         let mut all: Vec<(Quantity, Vec<Row>)> = Vec::new();
         let packings = packings(&folder)?;
         for (seed, file) in &packings {
@@ -136,7 +136,7 @@ pub fn run(arguments: &Arguments) -> Result<(), CliError> {
 }
 
 /// Points of the region of the averages: means over them stand for means over it.
-fn region(bed: &DemCase, geometry: &Geometry) -> Vec<[f64; 3]> {
+fn region(bed: &BedCase, geometry: &Geometry) -> Vec<[f64; 3]> {
     let [_, low, high, _] = geometry.levels;
     let height = |k: usize| low + (high - low) * (k as f64 + 0.5) / ALONG as f64;
     let Some(radius) = bed.record.radius else {
@@ -155,8 +155,8 @@ struct Packing<'a> {
     /// Number of the scene, and the seed.
     scene: usize,
     seed: u64,
-    bed: &'a DemCase,
-    /// Folder of its `dem.toml`, and the results of its DEM.
+    bed: &'a BedCase,
+    /// Folder of its `bed.toml`, and the results of its DEM.
     folder: &'a Path,
     file: &'a Path,
 }
@@ -269,7 +269,7 @@ impl<'a> Solver<'a> {
 }
 
 /// Number of spheres in the region of the averages.
-fn in_region(bed: &DemCase, geometry: &Geometry) -> f64 {
+fn in_region(bed: &BedCase, geometry: &Geometry) -> f64 {
     let [_, low, high, _] = geometry.levels;
     let area = bed.record.radius.map_or(bed.vessel().area(), |radius| std::f64::consts::PI * radius * radius);
     FILLED * area * (high - low) / (std::f64::consts::PI / 6.0 * bed.grains.diameter.powi(3))

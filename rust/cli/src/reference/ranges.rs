@@ -3,7 +3,7 @@
 use crate::bed::start::packings;
 use crate::error::CliError;
 use clap::Args;
-use msdd_beds::dem_case::DemCase;
+use msdd_beds::case::BedCase;
 use msdd_beds::packings::{at_start, column};
 use msdd_beds::pour::Container;
 use msdd_files::{read_text, write};
@@ -24,7 +24,7 @@ pub struct Arguments {
     /// The plan of scenes of discs, next to windows.csv.gz.
     #[arg(long, value_name = "FILE")]
     scenes: PathBuf,
-    /// The plan of beds of spheres, next to a folder of each name with dem.toml and the files dem-<seed>.csv.
+    /// The plan of beds of spheres, next to a folder of each name with bed.toml and the files dem-<seed>.csv.
     #[arg(long, value_name = "FILE")]
     beds: PathBuf,
     /// File for the ranges (JSON).
@@ -104,7 +104,7 @@ fn spheres(plan: &Path) -> Result<Ranges, CliError> {
     let mut ranges = Ranges::new();
     for planned in BedPlan::read(plan)?.scenes.iter().filter(|bed| bed.purpose != Use::Outside) {
         let folder = folder(plan).join(&planned.name);
-        let bed = DemCase::read(&folder)?;
+        let bed = BedCase::read(&folder)?;
         let grains = &bed.grains;
         let (temperatures, start) = (bed.temperatures(), bed.time.initial_temperature);
         let expansion = grains.thermal_expansion.unwrap_or(0.0);

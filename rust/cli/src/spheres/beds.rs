@@ -4,7 +4,7 @@
 use super::same::SeenValues;
 use crate::bed::start::{FirstRow, packings};
 use crate::error::CliError;
-use msdd_beds::dem_case::{DemCase, FILE, file_in};
+use msdd_beds::case::{BedCase, FILE, file_in};
 use msdd_beds::effective::BedMaterial;
 use msdd_beds::packings::column;
 use msdd_beds::sizes::equal_density;
@@ -46,7 +46,7 @@ pub fn tracks(root: &Path, first: i64, material: &mut SeenValues) -> Result<(Vec
     let (mut all, mut texts) = (Vec::new(), String::new());
     let mut seeds: Vec<u64> = Vec::new();
     for folder in folders {
-        let scene = DemCase::read(&folder)?;
+        let scene = BedCase::read(&folder)?;
         // Beds differ from boxes in Poisson's ratio: their law is asked with stresses over E* of their own.
         material.agree(&file_in(&folder), [Some(scene.grains.friction), None])?;
         for (seed, file) in packings(&folder)? {
@@ -70,7 +70,7 @@ pub fn tracks(root: &Path, first: i64, material: &mut SeenValues) -> Result<(Vec
 }
 
 /// Refuses beds whose spheres conduct in another way than those of the training.
-fn check_conduction(folder: &Path, scene: &DemCase) -> Result<(), CliError> {
+fn check_conduction(folder: &Path, scene: &BedCase) -> Result<(), CliError> {
     let refuse = |text: &str| Err(CliError::Message(format!("{}: {text}", file_in(folder).display())));
     if scene.grains.roughness.is_some() {
         return refuse("spheres that are rough, allowed for a training: no roughness");
@@ -90,7 +90,7 @@ fn check_conduction(folder: &Path, scene: &DemCase) -> Result<(), CliError> {
 /// Results without strains.
 pub fn track(
     folder: &Path,
-    scene: &DemCase,
+    scene: &BedCase,
     file: &Path,
     text: &str,
     packing: i64,
@@ -142,7 +142,7 @@ pub fn track(
     };
     // Where the lid keeps its pressure, and where the bed is spread and may lose all but its weight.
     let spreads = scene.shell.is_some() || scene.sides.is_some();
-    let gives_way = (scene.lid.pressing.is_some() || spreads).then_some(2);
+    let gives_way = (scene.lid_moves().1.is_some() || spreads).then_some(2);
     let steps = (1..temperatures.len()).map(|k| {
         let [thermal, x, y, z] =
             std::array::from_fn(|column| (1.0 + strains[column][k]) / (1.0 + strains[column][k - 1]) - 1.0);

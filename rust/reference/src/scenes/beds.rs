@@ -21,7 +21,7 @@ pub struct BedPlan {
 #[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PlannedBed {
-    /// Name of the bed: beside the plan stands a folder of this name, with `dem.toml` and the files `dem-<seed>.csv` of
+    /// Name of the bed: beside the plan stands a folder of this name, with `bed.toml` and the files `dem-<seed>.csv` of
     /// its packings. Allowed: `BED_NAMES`.
     pub name: String,
     /// What it is for, as above.

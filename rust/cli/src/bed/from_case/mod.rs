@@ -1,4 +1,4 @@
-//! `msdd bed from-case`: the bed of a case of the solver as an `dem.toml`.
+//! `msdd bed from-case`: the bed of a case of the solver as a `bed.toml`.
 
 mod functions;
 mod read;
@@ -8,8 +8,8 @@ mod walls;
 use crate::confirm::duration;
 use crate::error::CliError;
 use clap::Args;
+use msdd_beds::case::{BedCase, FILE};
 use msdd_beds::cost::estimate;
-use msdd_beds::dem_case::{DemCase, FILE};
 use msdd_files::{check_target, write};
 use read::Reader;
 use std::path::{Path, PathBuf};
@@ -17,17 +17,18 @@ use std::path::{Path, PathBuf};
 #[derive(Args)]
 #[command(after_help = "Examples:
   msdd case new results/store --yes --spheres --radius 0.03 --height 0.1 --side 320 --pressure 2e4
-  msdd bed from-case results/store          writes results/store/dem.toml
+  msdd bed from-case results/store          writes results/store/bed.toml
   msdd bed run results/store
+  msdd case new again --from results/store/bed.toml
 
 The spheres fill the whole bed; the command says how many they are and how long 'msdd bed run' takes. A smaller bed of the same kind
 is quicker: change number and base or radius in the file. What the file cannot express is left out and named, in the file as well.")]
 pub struct Arguments {
     /// Case folder with spheres and a mesh of system/blockMeshDict, as `msdd case new --spheres` or `msdd bed case` write it.
     case: PathBuf,
-    /// Folder for dem.toml. Default: the case folder.
+    /// Folder for bed.toml. Default: the case folder.
     out: Option<PathBuf>,
-    /// Replace an dem.toml that is there.
+    /// Replace a bed.toml that is there.
     #[arg(long)]
     force: bool,
 }
@@ -72,7 +73,7 @@ pub fn run(arguments: &Arguments) -> Result<(), CliError> {
 }
 
 /// The file, with its notes as comments.
-fn text(scene: &DemCase, case: &Path, out: &Path, size: &str, notes: &[String]) -> Result<String, CliError> {
+fn text(scene: &BedCase, case: &Path, out: &Path, size: &str, notes: &[String]) -> Result<String, CliError> {
     let mut text = format!(
         "# The bed of the case {} by DEM, written by 'msdd bed from-case'. Run it with: msdd bed run {}\n\
          # {size}. Keys: the book, Measured beds. SI units, temperatures in K.\n",
@@ -95,10 +96,10 @@ mod tests {
     }
 
     /// The case of a shipped bed, read again. Needs OpenFOAM, because it reads the files through foamDictionary.
-    fn there_and_back(bed: &str, results: &str) -> Option<(DemCase, DemCase)> {
+    fn there_and_back(bed: &str, results: &str) -> Option<(BedCase, BedCase)> {
         std::process::Command::new("foamDictionary").arg("-help").output().ok()?;
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../cases").join(bed);
-        let scene = DemCase::read(&folder).unwrap();
+        let scene = BedCase::read(&folder).unwrap();
         let start = FirstRow::read(&folder.join(results)).unwrap();
         let files = foam::files(&folder, &scene, &start, "bed", Path::new("/checkout")).unwrap();
         let case =
@@ -107,12 +108,12 @@ mod tests {
         let again = Reader::open(&case).unwrap().scene().unwrap();
         again.checked(&case.join(FILE)).unwrap();
         msdd_files::write(&case.join(FILE), again.text(&case).unwrap().as_bytes()).unwrap();
-        assert_eq!(DemCase::read(&case).unwrap(), again);
+        assert_eq!(BedCase::read(&case).unwrap(), again);
         std::fs::remove_dir_all(&case).unwrap();
         Some((scene, again))
     }
 
-    fn same(scene: &DemCase, again: &DemCase) {
+    fn same(scene: &BedCase, again: &BedCase) {
         assert_eq!((&again.gas, &again.heated), (&scene.gas, &scene.heated));
         assert_eq!(again.container.gravity, scene.container.gravity);
         let (a, b) = (&again.grains, &scene.grains);
@@ -140,14 +141,14 @@ mod tests {
     fn a_column_becomes_the_bed_that_it_was_made_of() {
         let Some((scene, again)) = there_and_back("column", "dem.csv") else { return };
         same(&scene, &again);
-        assert!(again.container.endless && again.lid.pressing.is_none());
+        assert!(again.container.endless && again.lid_moves().1.is_none());
         (0..2).for_each(|k| near(again.container.base.unwrap()[k], scene.container.base.unwrap()[k], 0.05));
-        near(again.lid.pressure, scene.lid.pressure, 0.15);
-        let (Some(Schedule::Table(a)), Some(Schedule::Table(b))) = (again.lid.strain, scene.lid.strain)
+        near(again.pressure(), scene.pressure(), 0.15);
+        let (Some(Schedule::Table(a)), Some(Schedule::Table(b))) = (again.lid_moves().0, scene.lid_moves().0)
         else {
             panic!("no paths")
         };
-        assert!(a.iter().zip(&b).all(|(a, b)| a[0] == b[0] && (a[1] - b[1]).abs() < 1e-8), "{a:?}");
+        assert!(a.iter().zip(b).all(|(a, b)| a[0] == b[0] && (a[1] - b[1]).abs() < 1e-8), "{a:?}");
     }
 
     #[test]
@@ -156,8 +157,8 @@ mod tests {
         same(&scene, &again);
         near(again.container.radius.unwrap(), scene.container.radius.unwrap(), 1e-6);
         near(again.record.radius.unwrap(), scene.record.radius.unwrap(), 1e-6);
-        near(again.lid.pressure, scene.lid.pressure, 1e-6);
-        near(again.lid.pressing.unwrap().at(0.0), 2e4, 1e-6);
+        near(again.pressure(), scene.pressure(), 1e-6);
+        near(again.lid_moves().1.unwrap().at(0.0), 2e4, 1e-6);
         let (a, b) = (again.shell.unwrap(), scene.shell.unwrap());
         near(a.thickness, b.thickness, 1e-6);
         assert_eq!((a.young_modulus, a.thermal_expansion), (b.young_modulus, b.thermal_expansion));

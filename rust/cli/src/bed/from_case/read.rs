@@ -4,8 +4,9 @@ use super::functions::{property, schedule};
 use super::shape::{DIGITS, Extent, Mesh};
 use super::walls::Walls;
 use crate::error::CliError;
-use msdd_beds::case::{GasKeys, Grains, Vessel};
-use msdd_beds::dem_case::{DemCase, Heated, LidKeys, RecordKeys, Shell, Time};
+use msdd_beds::case::{
+    BedCase, FRICTION, GasKeys, Grains, Heated, Lid, RESTITUTION, RecordKeys, Shell, SolverKeys, Time, Vessel,
+};
 use msdd_beds::named_gases::GasName;
 use msdd_beds::property::Property;
 use msdd_beds::schedule::Schedule;
@@ -16,19 +17,11 @@ use msdd_case::numbers::{plain, rounded};
 use std::f64::consts::PI;
 use std::path::Path;
 
-/// The law of spheres knows this friction of the spheres alone. The restitution and the softness while they are poured hardly matter.
-const FRICTION: f64 = 0.3;
-const RESTITUTION: f64 = 0.5;
-const SOFTER: f64 = 4.0;
-/// Intervals of a run, and steps of DEM in each, as in cases/beds.
-const INTERVALS: f64 = 40.0;
-const STEPS: u64 = 4000;
-const TOLERANCE: f64 = 0.02;
-/// Averages are taken so many diameters from the ends of the bed, and in a cylinder from its side.
-const MARGIN: f64 = 2.0;
 /// Without gravity in the case, the most that the weight of the bed adds to the stress at its bottom, over the pressure of the lid.
 const LIGHT: f64 = 0.05;
 const GRAVITY: f64 = 9.81;
+/// Significant digits of what comes back exactly.
+const EXACT: i32 = 12;
 /// Spheres of which moments are taken while their number is not known.
 const MANY: usize = 1000;
 /// Keys of the properties that have no part in DEM, or are read here.
@@ -86,7 +79,7 @@ impl<'a> Reader<'a> {
     ///
     /// # Errors
     /// A value that is missing or not understood.
-    pub fn scene(&mut self) -> Result<DemCase, CliError> {
+    pub fn scene(&mut self) -> Result<BedCase, CliError> {
         let heated = self.heated()?;
         let mut grains = self.grains()?;
         let extent = self.mesh.extent(grains.diameter, |name| heated.iter().any(|one| one.wall == name));
@@ -102,8 +95,9 @@ impl<'a> Reader<'a> {
         container.gravity = self.gravity(mass, pressure)?;
         let time = self.time()?;
         let scaled = |pressing: Schedule| scaled(pressing, self.widening(&extent).powi(-2));
-        let lid = LidKeys {
-            pressure: rounded(pressure, DIGITS),
+        let lid = Lid {
+            pressure: Some(rounded(pressure, DIGITS)),
+            porosity: None,
             strain: walls.strain,
             pressing: walls.pressing.map(scaled),
         };
@@ -111,26 +105,33 @@ impl<'a> Reader<'a> {
             thickness: rounded(shell.thickness * self.widening(&extent), DIGITS),
             ..shell
         });
-        let record = self.record(&grains, &extent, &heated)?;
+        let record = self.record(&extent, &heated);
         let heat_source = self.heat_source(porosity)?;
         self.left_out()?;
-        if grains.sizes.is_some() {
+        if grains.size_spread.is_some() {
             let note = "sizes: the case has sizeSpread alone; a log-normal distribution of it is taken";
             self.notes.push(note.to_string());
         }
-        Ok(DemCase {
+        Ok(BedCase {
             seed: 1,
             heat_source,
             grains,
             container,
-            lid,
+            lid: Some(lid),
+            turn: None,
             gas: self.gas()?,
             heated,
+            plate: None,
+            flow: None,
             shell,
             sides: None,
             time,
             record,
-        })
+            solver: SolverKeys::default(),
+            experiment: None,
+            vary: Vec::new(),
+        }
+        .filled())
     }
 
     /// The radius of a cylinder over that of its mesh.
@@ -184,7 +185,7 @@ impl<'a> Reader<'a> {
             density: positive("density")?,
             young_modulus,
             poisson_ratio: Self::number(spheres, "poissonRatio", 0.3)?,
-            simulated_young_modulus: rounded(young_modulus / SOFTER, 2),
+            simulated_young_modulus: f64::NAN,
             friction: FRICTION,
             wall_friction: 0.0,
             restitution: RESTITUTION,
@@ -195,7 +196,9 @@ impl<'a> Reader<'a> {
             yield_stress: None,
             emissivity: emissivity.filter(|given| *given != Property::Constant(0.0)),
             rays: None,
-            sizes: (spread > 0.0).then(|| Sizes::of_spread(spread)),
+            sizes: None,
+            size_spread: (spread > 0.0).then_some(spread),
+            crush_load: None,
             thermal_expansion: (expansion > 0.0).then_some(expansion),
         })
     }
@@ -241,7 +244,7 @@ impl<'a> Reader<'a> {
                 _ => None,
             };
             match function {
-                Some(temperature) => heated.push(Heated { wall: wall.to_string(), temperature }),
+                Some(temperature) => heated.push(Heated::new(wall, temperature)),
                 None => self.notes.push(format!(
                     "0/T: the condition of '{patch}' (type {kind}) is left out, the wall {wall} is insulated; possible: a temperature, \
                      constant or a table over time"
@@ -258,9 +261,13 @@ impl<'a> Reader<'a> {
         keys.number("grains", |value| value >= 1.0, "at least 1").ok()
     }
 
+    fn moments(&self, grains: &Grains) -> Moments {
+        Moments::new(grains.size_spread.map(Sizes::of_spread).as_ref(), MANY)
+    }
+
     /// Container without its gravity; the spheres fill it.
     fn container(&mut self, grains: &mut Grains, porosity: f64, extent: &Extent) -> Result<Vessel, CliError> {
-        let volume = PI / 6.0 * grains.diameter.powi(3) * Moments::new(grains.sizes.as_ref(), MANY).volume;
+        let volume = PI / 6.0 * grains.diameter.powi(3) * self.moments(grains).volume;
         let [[x0, x1], [y0, y1]] = self.mesh.sides;
         let area = extent.radius.map_or((x1 - x0) * (y1 - y0), |radius| PI * radius * radius);
         let filling = (area * extent.depth * (1.0 - porosity) / volume).round();
@@ -282,6 +289,8 @@ impl<'a> Reader<'a> {
             radius: extent.radius.map(|radius| rounded(radius, DIGITS)),
             endless: self.mesh.is_endless,
             gravity: GRAVITY,
+            height: Some(rounded(extent.depth, DIGITS)),
+            porosity: Some(rounded(porosity, DIGITS)),
         })
     }
 
@@ -300,7 +309,7 @@ impl<'a> Reader<'a> {
                 }
             }
         }
-        Ok(heat.map(|heat| rounded(heat / (1.0 - porosity), DIGITS)))
+        Ok(heat.map(|heat| rounded(heat / (1.0 - porosity), EXACT)))
     }
 
     /// Gravity of the case downwards [m/s²].
@@ -349,26 +358,13 @@ impl<'a> Reader<'a> {
         let positive =
             |key: &str| self.control.number(key, |value| value > 0.0 && value.is_finite(), "above 0");
         let end = positive("endTime")?;
-        let steps_of_output = (INTERVALS * positive("writeInterval")?.min(end) / end).ceil();
         let output_every = positive("writeInterval")?.min(end);
-        Ok(Time {
-            initial_temperature: self.mean("0/T")?,
-            end,
-            interval: output_every / steps_of_output,
-            steps: STEPS,
-            output_every,
-            tolerance: TOLERANCE,
-        })
+        Ok(Time { output_every, ..Time::new(self.mean("0/T")?, end) })
     }
 
-    /// Temperatures are recorded at the case's probes, as distances from the first heated wall.
-    fn record(
-        &mut self,
-        grains: &Grains,
-        extent: &Extent,
-        heated: &[Heated],
-    ) -> Result<RecordKeys, CliError> {
-        let d = grains.diameter;
+    /// Temperatures are recorded at the case's probes, as distances from the first heated wall, and averages taken where 'msdd bed case'
+    /// had them; the usual places otherwise.
+    fn record(&mut self, extent: &Extent, heated: &[Heated]) -> RecordKeys {
         let wall = heated.first().map_or("floor", |heated| heated.wall.as_str());
         let [[x0, x1], [y0, y1]] = self.mesh.sides;
         let from = |[x, y, z]: [f64; 3]| {
@@ -391,25 +387,16 @@ impl<'a> Reader<'a> {
         distances.sort_by(f64::total_cmp);
         distances.dedup();
         if distances.is_empty() {
-            distances.push(rounded(0.5 * extent.depth, DIGITS));
             self.notes.push("the case has no probes: T is recorded in the middle".to_string());
         }
-        let inside = |whole: f64, ends: f64| (whole - ends * MARGIN * d).max(0.5 * whole);
-        let height = inside(extent.depth, 2.0);
         let (heights, radius) = match (self.mesh.is_of_elements, self.mesh.levels.as_slice()) {
             (true, &[_, low, high, _]) => (
                 [low, high].map(|height| rounded(height, DIGITS)),
                 self.mesh.radii.get(1).map(|&radius| rounded(radius, DIGITS)),
             ),
-            _ => {
-                let low = rounded(0.5 * (extent.depth - height), DIGITS);
-                (
-                    [low, rounded(low + height, DIGITS)],
-                    extent.radius.map(|radius| rounded(inside(radius, 1.0), DIGITS)),
-                )
-            }
+            _ => Default::default(),
         };
-        Ok(RecordKeys { wall: wall.to_string(), distances, heights, radius })
+        RecordKeys { wall: wall.to_string(), distances, heights, radius }
     }
 
     /// Notes what DEM does not have.

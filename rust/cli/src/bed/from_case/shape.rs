@@ -4,21 +4,11 @@ use crate::bed::geometry::{HELD, INSULATED};
 use crate::error::CliError;
 use msdd_case::case::corners;
 use msdd_case::dictionary::{Dictionary, Token, joined};
+use msdd_case::spheres::shape::Shape;
 use std::collections::BTreeMap;
 
-/// Names of the walls in meshes of 'msdd case new' and in an `dem.toml`.
-const OF_BOX: [(&str, &str); 6] = [
-    ("left", "x_low"),
-    ("right", "x_high"),
-    ("front", "y_low"),
-    ("back", "y_high"),
-    ("bottom", "floor"),
-    ("top", "lid"),
-];
-const OF_CYLINDER: [(&str, &str); 3] = [("side", "side"), ("bottom", "floor"), ("top", "lid")];
-/// The same for meshes of 'msdd bed case', whose box has no sides that count.
-const OF_COLUMN: [(&str, &str); 2] = [("floor", "floor"), ("lid", "lid")];
-const OF_WEDGE: [(&str, &str); 3] = [("side", "side"), ("floor", "floor"), ("lid", "lid")];
+/// Walls in meshes of 'msdd bed case', whose box has no sides that count.
+const OF_WEDGE: [&str; 3] = ["side", "floor", "lid"];
 /// Significant digits of what is read: foamDictionary prints six.
 pub const DIGITS: i32 = 5;
 /// Relative distance within which two coordinates are one.
@@ -77,12 +67,14 @@ impl Mesh {
         let patches = patches(tokens);
         let is_wedge = patches.values().any(|kind| kind == "wedge");
         let is_of_elements = patches.contains_key("floor") && patches.contains_key("lid");
-        let names: &[(&'static str, &'static str)] = match (is_wedge, is_of_elements) {
-            (false, false) => &OF_BOX,
-            (true, false) => &OF_CYLINDER,
-            (false, true) => &OF_COLUMN,
-            (true, true) => &OF_WEDGE,
+        let shape = match is_wedge {
+            true => Shape::Cylinder { radius: 0.0, height: 0.0 },
+            false => Shape::Box([0.0; 3]),
         };
+        let own: &'static [&'static str] = if is_wedge { &OF_WEDGE } else { &OF_WEDGE[1..] };
+        let (names, walls) = if is_of_elements { (own, own) } else { (shape.walls(), shape.bed_walls()) };
+        let names: Vec<(&'static str, &'static str)> =
+            names.iter().copied().zip(walls.iter().copied()).collect();
         if let Some((missing, _)) = names.iter().find(|(patch, _)| !patches.contains_key(*patch)) {
             let value = format!("{} (no {missing})", patches.into_keys().collect::<Vec<_>>().join(" "));
             let allowed = "the walls of 'msdd case new --spheres' (left right front back bottom top; side bottom top) or of 'msdd bed case'";

@@ -3,7 +3,7 @@
 use super::functions::schedule;
 use super::shape::{DIGITS, Mesh};
 use crate::error::CliError;
-use msdd_beds::dem_case::Shell;
+use msdd_beds::case::Shell;
 use msdd_beds::schedule::Schedule;
 use msdd_case::dictionary::{Dictionary, Entry};
 use msdd_case::numbers::{plain, rounded};

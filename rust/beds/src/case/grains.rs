@@ -1,5 +1,6 @@
-//! The description of a bed that was measured: a TOML file that says what is poured, how it is handled, what heats it.
+//! The sections of a bed that all ways to compute it have: the spheres, what they are poured into, the gas.
 
+use super::Wrong;
 use crate::effective::{GOOD, MIN_RATIO, closure_error};
 use crate::exchange::{Emissivities, Exchange, OutOfRange, RADIATING, Tracing, exchange};
 use crate::named_gases::GasName;
@@ -7,47 +8,18 @@ use crate::pour::{Container, Pouring, WIDEST};
 use crate::property::{Property, VALUES};
 use crate::rays::Enclosure;
 use crate::settle::longest;
-use crate::sizes::{Moments, Sizes};
-use crate::units::kelvin;
+use crate::sizes::{MAX_SPREAD, Moments, Sizes};
 use msdd_engine::message::{number, range};
-use msdd_files::{FileError, read_text};
 use msdd_spheres::{Material, Simulation, Stiffness};
 use serde::{Deserialize, Serialize};
-use std::path::{Path, PathBuf};
-
-/// A bed. SI units.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct BedCase {
-    /// Seed of the packing.
-    #[serde(default = "one")]
-    pub seed: u64,
-    /// A section: the spheres.
-    pub grains: Grains,
-    /// A section: what they are poured into.
-    pub container: Vessel,
-    /// A section: a lid that is pressed on after pouring, and then stays. Default: no lid.
-    pub lid: Option<Lid>,
-    /// A section: how the container is turned then. Default: not turned.
-    pub turn: Option<Turn>,
-    /// A section: the gas between the grains.
-    pub gas: GasKeys,
-    /// A section: the wall that is heated.
-    pub plate: PlateKeys,
-    /// A section: how long, and where temperatures are recorded.
-    pub heat: Heat,
-    /// A section: measurements.
-    pub experiment: Option<ExperimentKeys>,
-    /// Blocks `[[vary]]`: with `--vary` all is computed again with one value changed.
-    #[serde(default)]
-    pub vary: Vec<Vary>,
-}
+use std::f64::consts::PI;
 
 /// The spheres.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Grains {
-    /// Number of spheres. Allowed: `NUMBERS`.
+    /// Number of spheres. Allowed: `NUMBERS`. Default: those that fill `container.height` with `container.porosity`.
+    #[serde(default)]
     pub number: usize,
     /// Diameter of all of them; with `sizes`, their Sauter mean Σ d³/Σ d² \[m\]. Allowed: `POSITIVE`.
     pub diameter: f64,
@@ -57,13 +29,18 @@ pub struct Grains {
     pub young_modulus: f64,
     /// Poisson's ratio. Allowed: `POISSON_RATIOS`.
     pub poisson_ratio: f64,
-    /// Young's modulus with which the grains move; with a softer one steps are longer \[Pa\]. Allowed: `SIMULATED`.
+    /// Young's modulus with which the grains move; with a softer one steps are longer \[Pa\]. Allowed: `SIMULATED`. Default: a quarter
+    /// of `young_modulus`.
+    #[serde(default = "absent")]
     pub simulated_young_modulus: f64,
-    /// Coefficient of friction of two grains. Allowed: `FRICTIONS`.
+    /// Coefficient of friction of two grains. Allowed: `FRICTIONS`; by the solver 0.3, for which its law is valid. Default: 0.3.
+    #[serde(default = "usual_friction")]
     pub friction: f64,
-    /// Coefficient of friction of a grain and a wall. Allowed: `FRICTIONS`.
+    /// Coefficient of friction of a grain and a wall. Allowed: `FRICTIONS`. Default: 0.3.
+    #[serde(default = "usual_friction")]
     pub wall_friction: f64,
-    /// Ratio of the speeds after and before a collision. Allowed: `RESTITUTIONS`.
+    /// Ratio of the speeds after and before a collision. Allowed: `RESTITUTIONS`. Default: 0.5.
+    #[serde(default = "usual_restitution")]
     pub restitution: f64,
     /// Thermal conductivity: a number, or a table of pairs of temperature and value, straight in between, which covers all
     /// temperatures of the run [W/(m K)]. Allowed: `MIN_RATIO` or more times the conductivity of the gas at all temperatures of the
@@ -83,9 +60,17 @@ pub struct Grains {
     pub emissivity: Option<Property>,
     /// Rays from each grain. Allowed: `RAYS`; below `FEW_RAYS` the run says what noise they leave. Default: 1000.
     pub rays: Option<usize>,
-    /// Linear coefficient of thermal expansion, in `dem.toml` alone [1/K]. Allowed: `EXPANSIONS`. Default: spheres keep their
+    /// Linear coefficient of thermal expansion, not next to a `plate` [1/K]. Allowed: `EXPANSIONS`. Default: spheres keep their
     /// size.
     pub thermal_expansion: Option<f64>,
+    /// Force on a contact at which a sphere breaks, with which the solver's case compares \[N\]. Allowed: `POSITIVE`. Default: not
+    /// known.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub crush_load: Option<f64>,
+    /// Standard deviation of the diameters over their mean, both weighted by surface, instead of `sizes`; DEM takes a log-normal
+    /// distribution. Allowed: 0 to 0.25. Default: that of `sizes`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub size_spread: Option<f64>,
     /// Distribution of the diameters, scaled so that their Sauter mean is `diameter`: `uniform` with the least and the largest one (by
     /// number), `normal` or `log_normal` with the standard deviation over the mean (by number, cut at two standard deviations), or
     /// `sieve` with rows of an opening and the share of the mass that passes it; two rows of one opening are spheres of that
@@ -104,7 +89,7 @@ pub struct Vessel {
     /// An upright cylinder: its radius. Its walls are `floor`, `side`, `lid` \[m\]. Allowed: `ONE_DIAMETER`; `WIDE`.
     /// Default: this or `base`.
     pub radius: Option<f64>,
-    /// Whether the bed repeats itself beyond the sides of `base`; its walls are `floor`, `lid`. In `dem.toml` alone.
+    /// Whether the bed repeats itself beyond the sides of `base`; its walls are `floor`, `lid`. Not next to a `plate`.
     /// Allowed: `true`, `false`; the `base` has `MORE_DIAMETERS`.
     #[serde(default)]
     pub endless: bool,
@@ -112,30 +97,14 @@ pub struct Vessel {
     /// `MAX_STEPS` steps.
     #[serde(default = "usual_gravity")]
     pub gravity: f64,
-}
-
-#[derive(Clone, Debug, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Lid {
-    /// Pressure with which the lid is pressed on \[Pa\]. Allowed: `POSITIVE`. Default: this or `porosity`.
-    pub pressure: Option<f64>,
-    /// Share of the pores in the volume between floor and lid at which the lid stops. Its pressure then is that of spheres
-    /// with `simulated_young_modulus`, and in proportion to it. Allowed: `POROSITIES`. Default: this or `pressure`.
+    /// Height of the bed, which the solver's case has; DEM finds it from the number of spheres \[m\]. Allowed: `POSITIVE`.
+    /// Default: required by `case new`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub height: Option<f64>,
+    /// Porosity at the start, which the solver's case has; DEM finds it. Allowed: 0.2 to 0.7, and the range of the law. Default: 0.4,
+    /// less for unequal spheres.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub porosity: Option<f64>,
-}
-
-impl Lid {
-    /// Its height above the floor \[m\], if a porosity is given, for a volume of grains \[m³\] on an area \[m²\].
-    pub fn depth(&self, solid: f64, area: f64) -> Option<f64> {
-        self.porosity.map(|porosity| solid / (area * (1.0 - porosity)))
-    }
-}
-
-#[derive(Clone, Debug, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Turn {
-    /// The wall that is the floor afterwards. Allowed: a flat wall.
-    pub down: String,
 }
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -152,68 +121,23 @@ pub struct GasKeys {
 }
 
 /// The wall that is heated.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct PlateKeys {
-    /// The wall that is heated. Allowed: a flat wall that the bed touches; with `pressure`, not the one on which the bed rests.
-    pub wall: String,
-    /// Its temperature from t = 0 on, a number or a text with a unit, as `"80C"` \[K\]. Allowed: `TEMPERATURES`.
-    #[serde(deserialize_with = "kelvin")]
-    pub temperature: f64,
-    /// Pressure with which it is pressed onto the bed before that \[Pa\]. Allowed: `POSITIVE`. Default: it stays where it is.
-    pub pressure: Option<f64>,
-    /// Young's modulus of its material \[Pa\]. Allowed: `POSITIVE`.
-    pub young_modulus: f64,
-    /// Poisson's ratio of its material. Allowed: `POISSON_RATIOS`.
-    pub poisson_ratio: f64,
-    /// Thermal conductivity of its material [W/(m K)]. Allowed: `POSITIVE`. Default: its surface has one temperature.
-    pub conductivity: Option<f64>,
-    /// σ/m of a grain and the plate \[m\]. Allowed: 0 (smooth), or `POSITIVE`. Default: smooth.
-    pub roughness: Option<f64>,
-    /// Hardness of the softer of the two \[Pa\]. Allowed: `POSITIVE`; required with a roughness above 0.
-    pub hardness: Option<f64>,
-    /// Emissivity of its surface, which radiates to grains that do. Allowed: 0 (reflects everything), or `RADIATING`. Default: that
-    /// of the grains.
-    pub emissivity: Option<f64>,
+/// A number: its key, the value, what is allowed, whether it is so.
+pub(crate) type Ranged = (&'static str, f64, String, bool);
+/// A number that is not given, until [`super::BedCase::filled`].
+pub(super) fn absent() -> f64 {
+    f64::NAN
 }
 
-#[derive(Clone, Debug, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Heat {
-    /// Temperature of all grains at the start, a number or a text with a unit \[K\]. Allowed: `TEMPERATURES`.
-    #[serde(deserialize_with = "kelvin")]
-    pub initial_temperature: f64,
-    /// End of the run \[s\]. Allowed: `POSITIVE`.
-    pub end: f64,
-    /// Time between two rows of `temperature.csv` \[s\]. Allowed: `OUTPUT_EVERY`.
-    pub output_every: f64,
-    /// Estimated error of T that a step may make \[K\]. Allowed: `POSITIVE`.
-    #[serde(default = "usual_tolerance")]
-    pub tolerance: f64,
-    /// Distances from the plate at which T is recorded \[m\]. Allowed: where there are grains.
-    pub probes: Vec<f64>,
+/// Friction for which the law of spheres is valid, and usual restitution, which hardly matters.
+pub const FRICTION: f64 = 0.3;
+pub const RESTITUTION: f64 = 0.5;
+
+fn usual_friction() -> f64 {
+    FRICTION
 }
 
-#[derive(Clone, Debug, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct ExperimentKeys {
-    /// A CSV file in the folder of the case: the header `distance_m,time_s,temperature_C`, then one measurement a line; lines
-    /// that begin with `#` are comments. Allowed: each distance is one of `heat.probes`.
-    pub file: PathBuf,
-}
-
-#[derive(Clone, Debug, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Vary {
-    /// The value that is changed, as `seed` or `gas.accommodation`; the bed is poured again if its packing depends on it.
-    /// Allowed: any key but `experiment.file`.
-    pub key: String,
-    /// The other value. Allowed: as for the key.
-    pub value: toml::Value,
-}
-
-fn one() -> u64 {
-    1
+fn usual_restitution() -> f64 {
+    RESTITUTION
 }
 
 fn usual_gravity() -> f64 {
@@ -224,254 +148,36 @@ fn usual_pressure() -> f64 {
     101_325.0
 }
 
+/// Thermal accommodation of the gas at spheres, also the solver's default.
 fn usual_accommodation() -> f64 {
     0.9
 }
 
-fn usual_tolerance() -> f64 {
-    0.05
-}
-
+/// Young's modulus over that with which grains move, which hardly matters.
+const SOFTER: f64 = 4.0;
+/// Spheres of which moments are taken while their number is not known.
+const MANY: usize = 1000;
 /// Most steps in which poured grains have to come to rest: those of cases/beds have some 500 000.
 const MAX_STEPS: f64 = 1e8;
-/// Name of the file in the folder of a case.
-pub const FILE: &str = "bed.toml";
 /// Parts of the temperatures of a run at which the conductivity of the grains is held against that of the gas.
 const LOOKS: u32 = 50;
-/// Beginnings of the keys that the packing does not depend on.
-const HEAT_ONLY: [&str; 14] = [
-    "grains.conductivity",
-    "grains.heat_capacity",
-    "grains.young_modulus",
-    "grains.roughness",
-    "grains.hardness",
-    "grains.yield_stress",
-    "gas.",
-    "heat.",
-    "plate.temperature",
-    "plate.conductivity",
-    "plate.young_modulus",
-    "plate.poisson_ratio",
-    "plate.roughness",
-    "plate.hardness",
-];
-
-impl Vary {
-    /// Whether the bed has to be poured again.
-    pub fn changes_packing(&self) -> bool {
-        !HEAT_ONLY.iter().any(|key| self.key.starts_with(key))
-    }
-}
-
-/// What is wrong with a description. The messages name file, key, value and what is allowed.
-#[derive(Debug, thiserror::Error)]
-pub enum CaseError {
-    #[error(transparent)]
-    File(#[from] FileError),
-    #[error("{file}: {problem}", file = file.display())]
-    Read { file: PathBuf, problem: String },
-    #[error("{file}: {key} = {value}, allowed: {allowed}", file = file.display())]
-    Value { file: PathBuf, key: String, value: String, allowed: String },
-}
-
-impl BedCase {
-    /// Reads and checks the description in the folder of a case.
-    ///
-    /// # Errors
-    /// The first thing that is wrong.
-    pub fn read(folder: &Path) -> Result<Self, CaseError> {
-        let file = folder.join(FILE);
-        let case = Self::parse(&file, &read_text(&file)?)?;
-        for vary in &case.vary {
-            case.varied(folder, vary)?;
-        }
-        Ok(case)
-    }
-
-    fn parse(file: &Path, text: &str) -> Result<Self, CaseError> {
-        let read = |problem: String| CaseError::Read { file: file.to_path_buf(), problem };
-        let case: Self = toml::from_str(text).map_err(|error| read(error.to_string().trim().to_string()))?;
-        case.check().map_err(|(key, value, allowed)| CaseError::Value {
-            file: file.to_path_buf(),
-            key,
-            value,
-            allowed,
-        })?;
-        Ok(case)
-    }
-
-    /// The same with one value changed.
-    ///
-    /// # Errors
-    /// A section that is not there; what is wrong with the value.
-    pub fn varied(&self, folder: &Path, vary: &Vary) -> Result<Self, CaseError> {
-        let file = folder.join(FILE);
-        let read = |problem: String| CaseError::Read { file: file.clone(), problem };
-        let mut table: toml::Table =
-            toml::from_str(&read_text(&file)?).map_err(|error| read(error.to_string()))?;
-        table.insert("seed".to_string(), toml::Value::Integer(self.seed as i64));
-        table.remove("vary");
-        if ["experiment", "vary"].contains(&vary.key.split('.').next().unwrap_or_default()) {
-            let allowed = "a key of the bed: all are compared with the same measurements".to_string();
-            let (key, value) = ("vary.key".to_string(), vary.key.clone());
-            return Err(CaseError::Value { file, key, value, allowed });
-        }
-        match vary.key.split_once('.') {
-            None => {
-                table.insert(vary.key.clone(), vary.value.clone());
-            }
-            Some((section, key)) => {
-                let Some(toml::Value::Table(inner)) = table.get_mut(section) else {
-                    let sections: Vec<&str> = table.keys().map(String::as_str).collect();
-                    let allowed = format!("a key of {}", sections.join(", "));
-                    let (key, value) = ("vary.key".to_string(), vary.key.clone());
-                    return Err(CaseError::Value { file, key, value, allowed });
-                };
-                inner.insert(key.to_string(), vary.value.clone());
-            }
-        }
-        let text = toml::to_string(&table).map_err(|error| read(error.to_string()))?;
-        Self::parse(&file, &text).map_err(|error| match error {
-            CaseError::Read { problem, .. } => read(format!("vary {} = {}: {problem}", vary.key, vary.value)),
-            CaseError::Value { file, key, value, allowed } if key != vary.key => {
-                CaseError::Value { file, key: format!("vary {}: {key}", vary.key), value, allowed }
-            }
-            other => other,
-        })
-    }
-
-    /// Temperatures \[K\] between which everything stays.
-    pub fn temperatures(&self) -> [f64; 2] {
-        let (a, b) = (self.heat.initial_temperature, self.plate.temperature);
-        [a.min(b), a.max(b)]
-    }
-
-    /// What the run says of grains so poor that a closure takes the place of the law of pairs.
-    pub fn closure(&self) -> Option<String> {
-        let text = self.grains.closure(self.temperatures(), &self.gas);
-        text.map(|text| text + " (not compared next to a plate)")
-    }
-
-    /// What the run says if the emissivity depends on the temperature.
-    pub fn varying_emissivity(&self) -> Option<String> {
-        self.grains.varying_emissivity(self.temperatures())
-    }
-
-    /// Key, value, what is allowed of the first value outside its range.
-    fn check(&self) -> Result<(), (String, String, String)> {
-        let range = self.temperatures();
-        self.grains.check_sizes()?;
-        for (key, value, allowed, good) in self.numbers() {
-            if !good {
-                return Err((key.to_string(), number(value), allowed.to_string()));
-            }
-        }
-        hardness("plate.hardness", self.plate.roughness, self.plate.hardness)?;
-        if self.grains.thermal_expansion.is_some() || self.container.endless {
-            let key = if self.container.endless { "container.endless" } else { "grains.thermal_expansion" };
-            let allowed = "only in dem.toml, where grains expand".to_string();
-            return Err((key.into(), "given".into(), allowed));
-        }
-        self.grains.check(range, &self.gas)?;
-        self.container.check(&self.grains)?;
-        if let Some(lid) = &self.lid
-            && lid.pressure.is_some() == lid.porosity.is_some()
-        {
-            let given = if lid.pressure.is_some() {
-                "pressure and porosity"
-            } else {
-                "neither pressure nor porosity"
-            };
-            return Err(("lid".into(), given.into(), "one of pressure and porosity".into()));
-        }
-        let names = self.wall_names();
-        let turned = self.turn.iter().map(|turn| ("turn.down", &turn.down));
-        for (key, name) in turned.chain([("plate.wall", &self.plate.wall)]) {
-            let flat = names.iter().any(|known| known == name) && name != "side";
-            if !flat {
-                let flat: Vec<&str> = names.into_iter().filter(|name| *name != "side").collect();
-                return Err((key.into(), name.clone(), flat.join(", ")));
-            }
-        }
-        let bottom = self.turn.as_ref().map_or("floor", |turn| turn.down.as_str());
-        if self.plate.pressure.is_some() && self.plate.wall == bottom {
-            let allowed =
-                "no pressure for the wall on which the bed rests, or another plate.wall".to_string();
-            return Err(("plate.wall".into(), format!("{bottom} with plate.pressure"), allowed));
-        }
-        let untouched = self.lid.is_none() && self.plate.pressure.is_none() && bottom != "lid";
-        if untouched && self.plate.wall == "lid" {
-            let allowed =
-                "a section [lid] or plate.pressure: else the lid does not touch the bed".to_string();
-            return Err(("plate.wall".into(), "lid".into(), allowed));
-        }
-        Ok(())
-    }
-
-    /// Names of the walls of the container.
-    pub fn wall_names(&self) -> Vec<&'static str> {
-        self.vessel().walls(0.0).into_iter().map(|(name, _)| name).collect()
-    }
-
-    /// The container.
-    pub fn vessel(&self) -> Container {
-        self.container.container()
-    }
-
-    fn numbers(&self) -> Vec<Ranged> {
-        let (p, h) = (&self.plate, &self.heat);
-        let mut all = self.grains.numbers();
-        all.extend(self.container.numbers(&self.grains));
-        all.extend(self.gas.numbers());
-        let lid = |key: fn(&Lid) -> Option<f64>| self.lid.as_ref().and_then(key);
-        all.extend([
-            ranged("plate.young_modulus", p.young_modulus, POSITIVE),
-            ranged("heat.end", h.end, POSITIVE),
-            ranged("heat.tolerance", h.tolerance, POSITIVE),
-            ranged("plate.hardness", p.hardness.unwrap_or(1.0), POSITIVE),
-            ranged("plate.conductivity", p.conductivity.unwrap_or(1.0), POSITIVE),
-            ranged("plate.pressure", p.pressure.unwrap_or(1.0), POSITIVE),
-            ranged("lid.pressure", lid(|lid| lid.pressure).unwrap_or(1.0), POSITIVE),
-            ranged("plate.poisson_ratio", p.poisson_ratio, POISSON_RATIOS),
-            emissivity("plate.emissivity", p.emissivity.unwrap_or(1.0), "reflects everything"),
-            ("heat.probes", h.probes.len() as f64, "one at least".into(), !h.probes.is_empty()),
-            (
-                "heat.output_every",
-                h.output_every,
-                OUTPUT_EVERY.into(),
-                h.output_every <= h.end && h.output_every >= 1e-5 * h.end,
-            ),
-            rough("plate.roughness", p.roughness),
-        ]);
-        all.extend(lid(|lid| lid.porosity).map(|porosity| ranged("lid.porosity", porosity, POROSITIES)));
-        all.push(temperature("plate.temperature", p.temperature));
-        all.push(temperature("heat.initial_temperature", h.initial_temperature));
-        all.extend(h.probes.iter().map(|&probe| ranged("heat.probes", probe, POSITIVE)));
-        all
-    }
-}
-
-/// A number: its key, the value, what is allowed, whether it is so.
-pub(crate) type Ranged = (&'static str, f64, String, bool);
-/// A value that is wrong: its key, the value, what is allowed.
-type Wrong = (String, String, String);
+/// Solid fraction of a bed whose porosity is not known.
+pub(super) const REFERENCE_FRACTION: f64 = 0.6;
 
 /// What numbers may be; the comments of the keys name these.
 pub(crate) const POSITIVE: [f64; 2] = [1e-12, 1e15];
 pub(crate) const TEMPERATURES: [f64; 2] = [1.0, 5000.0];
 pub(crate) const EXPANSIONS: [f64; 2] = [0.0, 0.01];
+pub(crate) const POISSON_RATIOS: [f64; 2] = [0.0, 0.5];
 const NUMBERS: [f64; 2] = [1.0, 1_000_000.0];
 const FRICTIONS: [f64; 2] = [0.0, 10.0];
 const RESTITUTIONS: [f64; 2] = [0.001, 1.0];
-const POISSON_RATIOS: [f64; 2] = [0.0, 0.5];
 const RAYS: [f64; 2] = [1.0, 1_000_000.0];
 const DEFAULT_RAYS: usize = 1000;
-const POROSITIES: [f64; 2] = [0.35, 0.7];
 /// Difference of scaled exchanges from those traced with their own emissivity, see `tests/radiation.rs` \[%\].
 const SCALED_ERROR: f64 = 2.0;
 const SIMULATED: &str = "1e-12 to that of the material, young_modulus";
 const ACCOMMODATION: &str = "0 < accommodation <= 1";
-const OUTPUT_EVERY: &str = "a hundred-thousandth of end, to end";
 const ONE_DIAMETER: &str = "one diameter of the largest grain at least";
 const TWO_DIAMETERS: &str = "two diameters of the largest grain at least";
 const MORE_DIAMETERS: &str = "two and a half diameters of the largest grain at least";
@@ -489,17 +195,17 @@ pub(crate) fn temperature(key: &'static str, value: f64) -> Ranged {
     (key, value, range(TEMPERATURES) + " K", inside(value, TEMPERATURES))
 }
 
-fn emissivity(key: &'static str, value: f64, none: &str) -> Ranged {
+pub(crate) fn emissivity(key: &'static str, value: f64, none: &str) -> Ranged {
     let good = value == 0.0 || inside(value, RADIATING);
     (key, value, format!("0 ({none}), or {}", range(RADIATING)), good)
 }
 
-fn rough(key: &'static str, value: Option<f64>) -> Ranged {
+pub(crate) fn rough(key: &'static str, value: Option<f64>) -> Ranged {
     let good = value.is_none_or(|v| v == 0.0 || inside(v, POSITIVE));
     (key, value.unwrap_or_default(), format!("0 (smooth), or {}", range(POSITIVE)), good)
 }
 
-fn hardness(key: &str, roughness: Option<f64>, hardness: Option<f64>) -> Result<(), Wrong> {
+pub(crate) fn hardness(key: &str, roughness: Option<f64>, hardness: Option<f64>) -> Result<(), Wrong> {
     if roughness.is_some_and(|height| height > 0.0) && hardness.is_none() {
         let allowed = "a value, because a roughness is given".to_string();
         return Err((key.to_string(), "not given".to_string(), allowed));
@@ -568,6 +274,23 @@ impl Grains {
         pouring
     }
 
+    /// With what follows from other values in place of what is not given.
+    pub(super) fn filled(&mut self, container: &Vessel) {
+        if self.simulated_young_modulus.is_nan() {
+            self.simulated_young_modulus = self.young_modulus / SOFTER;
+        }
+        if self.sizes.is_none() {
+            self.sizes = self.size_spread.filter(|spread| *spread > 0.0).map(Sizes::of_spread);
+        }
+        if self.number == 0
+            && let Some(height) = container.height
+        {
+            let solid = container.porosity.map_or(REFERENCE_FRACTION, |porosity| 1.0 - porosity);
+            let volume = PI / 6.0 * self.diameter.powi(3) * Moments::new(self.sizes.as_ref(), MANY).volume;
+            self.number = (container.container().area() * height * solid / volume).round() as usize;
+        }
+    }
+
     pub(crate) fn check_sizes(&self) -> Result<(), Wrong> {
         let checked = self.sizes.as_ref().map_or(Ok(()), Sizes::check);
         checked.map_err(|problem| ("grains.sizes".into(), problem.value, problem.allowed))
@@ -580,7 +303,7 @@ impl Grains {
 
     /// Volume of all grains \[m³\].
     pub fn volume(&self) -> f64 {
-        self.number as f64 * std::f64::consts::PI / 6.0 * self.diameter.powi(3) * self.moments().volume
+        self.number as f64 * PI / 6.0 * self.diameter.powi(3) * self.moments().volume
     }
 
     pub(crate) fn numbers(&self) -> Vec<Ranged> {
@@ -609,6 +332,9 @@ impl Grains {
             emissivity("grains.emissivity", constant, "without radiation"),
             ranged("grains.rays", self.rays.unwrap_or(DEFAULT_RAYS) as f64, RAYS),
             rough("grains.roughness", self.roughness),
+            ranged("grains.crush_load", self.crush_load.unwrap_or(1.0), POSITIVE),
+            ranged("grains.size_spread", self.size_spread.unwrap_or(0.0), [0.0, MAX_SPREAD]),
+            ranged("grains.thermal_expansion", self.thermal_expansion.unwrap_or(0.0), EXPANSIONS),
         ]
     }
 
@@ -673,6 +399,11 @@ impl Grains {
 }
 
 impl GasKeys {
+    /// A gas of this pressure \[Pa\] with the usual accommodation.
+    pub fn new(name: GasName, pressure: f64) -> Self {
+        Self { name, pressure, accommodation: usual_accommodation() }
+    }
+
     pub(crate) fn numbers(&self) -> Vec<Ranged> {
         let accommodation = self.accommodation;
         vec![
@@ -726,8 +457,8 @@ impl Vessel {
         let base = self.base.unwrap_or([2.0 * d; 2]);
         let radius = self.radius.unwrap_or(d);
         // The other one of base and radius is just large enough.
-        let floor = (base[0] * base[1]).max(std::f64::consts::PI * radius * radius)
-            / (count * grains.diameter * grains.diameter);
+        let floor =
+            (base[0] * base[1]).max(PI * radius * radius) / (count * grains.diameter * grains.diameter);
         // A grain must not meet two images of another.
         let (least, narrow) = match self.endless {
             false => (2.0, TWO_DIAMETERS),
@@ -735,6 +466,8 @@ impl Vessel {
         };
         vec![
             ranged("container.gravity", self.gravity, POSITIVE),
+            ranged("container.height", self.height.unwrap_or(1.0), POSITIVE),
+            ranged("container.porosity", self.porosity.unwrap_or(0.4), [0.2, 0.7]),
             ("container.base", base[0], narrow.into(), self.base.is_none() || base[0] >= least * d),
             ("container.base", base[1], narrow.into(), self.base.is_none() || base[1] >= least * d),
             ("container.radius", radius, ONE_DIAMETER.into(), radius >= d),
