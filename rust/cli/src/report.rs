@@ -145,12 +145,12 @@ impl Targets {
     fn write_paper(&self, made: &Made) -> Result<String, CliError> {
         let report = &made.report;
         self.write(report, &page::text(made)?)?;
-        msdd_report::write_text(&self.spheres(), &page::spheres::text(made)?)?;
+        msdd_report::write_text(&self.spheres(), &page::spheres(made)?)?;
         Ok(format!("{} jobs, {} from the cache\n{}", report.jobs, report.cached_jobs, judged(report)))
     }
 
     fn write_case(&self, report: CaseReport) -> Result<String, CliError> {
-        self.write(&report, &page::case::text(&report)?)?;
+        self.write(&report, &page::case(&report)?)?;
         msdd_report::write_text(&self.csv(), &case::table::csv(&report))?;
         let done = report.rows.iter().filter(|row| row.errors.temperature.is_some()).count();
         let sentences: Vec<&str> = report.choices.iter().map(|choice| choice.sentence.as_str()).collect();

@@ -107,7 +107,7 @@ pub fn make(
         scalings: other_cases.scalings.clone(),
         spheres: spheres::read(settings, &records)?,
         economy: economy::savings(settings, &records, &references),
-        failures: failures::read(settings, &records),
+        failures: failures::read(settings, &records)?,
         left_out: left_out(settings.quick),
     };
     let details = detail::read(settings, &records)?;
@@ -158,7 +158,7 @@ fn run_all(
     rest.extend(sensitivity::jobs(settings));
     rest.extend(other_cases::jobs());
     rest.extend(economy::jobs(settings));
-    rest.extend(failures::jobs(settings.quick));
+    rest.extend(failures::jobs(settings.quick)?);
     let (cache, place) = (&settings.cache, &settings.place);
     if !settings.run {
         return pool::found(cache, &[costs, rest].concat());

@@ -101,7 +101,7 @@ fn check(folder: &Path) -> Result<(), CaseError> {
 }
 
 /// Makes the report on the case in `folder`; runs the jobs that the cache does not have. `discs`: whether the reference is one by
-/// DEM. The folder stays as it is; copies are made beside it and removed.
+/// DEM. The folder stays as it is; copies are made next to it and removed.
 ///
 /// # Errors
 /// When the folder is no case, discs cannot be made for it, it cannot be run at all, or files cannot be written.

@@ -14,6 +14,7 @@ pub mod elements;
 pub mod rows;
 pub mod solver;
 
+use crate::ReportError;
 use crate::jobs::execute::Outcome;
 use crate::jobs::job::Job;
 use crate::jobs::pool::{Asked, Records};
@@ -32,8 +33,10 @@ pub struct Failures {
     pub drift: Vec<drift::Drift>,
 }
 
-pub fn jobs(quick: bool) -> Vec<Asked> {
-    let mut jobs: Vec<Job> = rows::edges(quick).into_iter().map(|edge| edge.job).collect();
+/// # Errors
+/// As [`rows::edges`].
+pub fn jobs(quick: bool) -> Result<Vec<Asked>, ReportError> {
+    let mut jobs: Vec<Job> = rows::edges(quick)?.iter().map(rows::Edge::job).collect();
     jobs.push(elements::stability(quick));
     jobs.push(elements::limits(quick));
     jobs.extend(solver::jobs(quick));
@@ -41,15 +44,18 @@ pub fn jobs(quick: bool) -> Vec<Asked> {
         jobs.push(drift::score());
         jobs.extend(cycles::jobs());
     }
-    jobs.into_iter().map(|job| Asked { guess: 2.0, job }).collect()
+    Ok(jobs.into_iter().map(|job| Asked { guess: 2.0, job }).collect())
 }
 
 /// Makes the failure map from the records of the jobs.
-pub fn read(settings: &Settings, records: &Records) -> Failures {
+///
+/// # Errors
+/// As [`rows::edges`].
+pub fn read(settings: &Settings, records: &Records) -> Result<Failures, ReportError> {
     let done =
         |job: &Job| settings.record(records, job).filter(|record| record.outcome == Outcome::Done).cloned();
-    Failures {
-        rows: rows::read(settings, records),
+    Ok(Failures {
+        rows: rows::read(settings, records)?,
         stable_steps: done(&elements::stability(settings.quick))
             .map(|r| elements::stable_steps(&r.printed))
             .unwrap_or_default(),
@@ -60,5 +66,5 @@ pub fn read(settings: &Settings, records: &Records) -> Failures {
         slant: solver::slant(settings, records),
         cycles: if settings.quick { Vec::new() } else { cycles::read(settings, records) },
         drift: done(&drift::score()).and_then(|r| r.file.as_deref().map(drift::drift)).unwrap_or_default(),
-    }
+    })
 }

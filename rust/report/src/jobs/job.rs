@@ -118,7 +118,7 @@ impl SolverJob {
     }
 }
 
-/// A run of `msddFoam` in one of the cases of spheres, whose results are compared with what stands beside it.
+/// A run of `msddFoam` in one of the cases of spheres, whose results are compared with what stands next to it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SpheresJob {
     /// Folder in `cases`.
@@ -138,14 +138,14 @@ pub struct SpheresJob {
 pub struct ToolJob {
     /// Arguments of `msdd`; `WORK` stands for the folder of the job.
     pub arguments: Vec<String>,
-    /// Files and folders, relative to the checkout, that the result depends on beside the arguments.
+    /// Files and folders, relative to the checkout, that the result depends on in addition to the arguments.
     pub inputs: Vec<String>,
     /// Output file in `WORK` whose text is kept.
     pub output: Option<String>,
     pub limit: u64,
 }
 
-/// A run on a copy of a case of the user's; the copy stands beside it while the job runs.
+/// A run on a copy of a case of the user's; the copy stands next to it while the job runs.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct CaseJob {
     /// The user's case folder.

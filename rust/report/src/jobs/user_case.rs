@@ -17,10 +17,10 @@ use serde::{Deserialize, Serialize};
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
-/// Ends of the names of the folders beside the user's case: the copy, and those that `msdd case solve` makes of it.
+/// Ends of the names of the folders next to the user's case: the copy, and those that `msdd case solve` makes of it.
 const COPY: &str = "report";
 const OTHERS: [&str; 2] = ["report.chosen", "report.trial"];
-/// Name of the function objects whose results are compared, beside those of [`trial`].
+/// Name of the function objects whose results are compared, in addition to those of [`trial`].
 const WATCH: &str = "msddReport";
 /// Folder of the results of discs in the copy.
 const DISCS: &str = "discs";
@@ -55,9 +55,9 @@ pub struct Measured {
     pub range: f64,
     /// T at the points of the case \[K\].
     pub temperature: Rows,
-    /// Pressure at these points; beside discs one column, the mean of the box \[Pa\].
+    /// Pressure at these points; compared with discs one column, the mean of the box \[Pa\].
     pub pressure: Rows,
-    /// Displacement at these points, three columns for each; beside discs at the end alone, in the centres of
+    /// Displacement at these points, three columns for each; compared with discs at the end alone, in the centres of
     /// [`SUB_REGIONS`]. Empty if grains stay \[m\].
     pub displacement: Rows,
     /// Discs alone: porosity with overlaps counted once and away from the walls [-], fabric index [-], and pressure away from the
@@ -75,7 +75,7 @@ fn beside(case: &Path, ending: &str) -> PathBuf {
     case.with_file_name(format!("{name}.{ending}"))
 }
 
-/// Refuses a case beside which a folder of the user's has the name of one that jobs make and remove.
+/// Refuses a case next to which a folder of the user's has the name of one that jobs make and remove.
 ///
 /// # Errors
 /// [`ChoiceError::Foreign`].
@@ -83,7 +83,7 @@ pub fn check(case: &Path) -> Result<(), ChoiceError> {
     [&[COPY][..], &OTHERS].concat().into_iter().try_for_each(|ending| check_ours(&beside(case, ending)))
 }
 
-/// Removes what a job has made beside the case.
+/// Removes what a job has made next to the case.
 ///
 /// # Errors
 /// [`ChoiceError::Foreign`], [`ChoiceError::Read`] if it cannot be removed.

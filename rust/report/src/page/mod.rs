@@ -1,58 +1,134 @@
-//! The page: one HTML file with its figures inside, without scripts.
+//! The pages, from `templates`: single files with their figures inside, without scripts. A chart or table that needs only the report's
+//! data is described in its template; the modules prepare what has to be computed first.
 
-mod beyond;
-pub mod case;
-mod chart;
 mod curves;
-mod edge;
 mod fields;
-mod html;
-mod requests;
-pub mod spheres;
 mod states;
-mod validation;
 
 use crate::ReportError;
+use crate::case::{self, CaseReport};
+use crate::failures::cycles::worst;
+use crate::jobs::execute::Stamp;
+use crate::plan::{CHARTED, FAMILIES};
 use crate::report::Made;
-use msdd_draw::escape;
-use msdd_draw::html::{head, numbered};
-use std::fmt::Write;
+use crate::studies::front::{Point, stairs};
+use crate::studies::{known, requests, spheres};
+use msdd_draw::page;
+use msdd_reference::packings::CASES;
+use serde_json::json;
+use std::collections::BTreeMap;
 
-/// The page's text.
+/// Text of a template of this crate with its name.
+macro_rules! templates {
+    ($($name:literal),*) => { [$(($name, include_str!(concat!("../../templates/", $name)))),*] };
+}
+const TEMPLATES: [(&str, &str); 8] = templates!(
+    "index.html",
+    "chart.html",
+    "requests.html",
+    "validation.html",
+    "beyond.html",
+    "edge.html",
+    "spheres.html",
+    "case.html"
+);
+
+/// Name of the case in a folder; those without expansion have a star.
+fn case_name(case: &str) -> &str {
+    CASES.iter().find(|c| c.0 == case).map_or(case, |c| c.1)
+}
+
+fn origin(stamp: &Stamp) -> String {
+    format!("scripts/report · {} · {}", stamp.commit, stamp.date)
+}
+
+fn plan() -> serde_json::Value {
+    let cases = CASES.map(|case| case.0);
+    json!({ "families": FAMILIES, "sphere_families": spheres::FAMILIES, "charted": CHARTED, "cases": cases, "database": known::DATABASE })
+}
+
+/// The page on the paper's cases.
 ///
 /// # Errors
 /// [`ReportError::Draw`].
 pub fn text(made: &Made) -> Result<String, ReportError> {
     let report = &made.report;
-    let stamp = &report.made;
-    let mut page = head("MSDD: speed against accuracy");
-    let _ = writeln!(
-        page,
-        "<h1>Speed against accuracy</h1>\n<p>Heat conduction with thermal expansion in a bed of 15 000 grains: the solver against \
-         DEM of the same packings. {} jobs, {} of them from the cache; made {} on {}, commit {}.{}</p>",
-        report.jobs,
-        report.cached_jobs,
-        escape(&stamp.date),
-        escape(&stamp.cpu),
-        escape(&stamp.commit),
-        if report.quick {
-            " <b>Quick version: few configurations, coarse meshes, one packing.</b>"
-        } else {
-            ""
+    let both = |points: &Vec<Point>| [0, 1].map(|which| stairs(points, which));
+    let stairs: BTreeMap<_, _> = report.chart.iter().map(|(case, points)| (case, both(points))).collect();
+    let lowest = [0, 1].map(|which| {
+        let errors = report.chart.values().flatten().filter_map(|point| Some(point.place(which)?.1));
+        0.6 * errors.filter(|error| *error > 0.0).fold(1.0, f64::min)
+    });
+    let cycles = &report.failures.cycles;
+    let context = json!({
+        "report": report, "plan": plan(), "origin": origin(&report.made), "names": BTreeMap::from(CASES),
+        "stairs": stairs, "lowest": lowest,
+        "judged": made.judged, "tallies": requests::tallies(&made.judged.requests),
+        "curves": curves::all(made), "fields": fields::all(made), "states": states::all(made),
+        "cycles": { "fixed": worst(cycles, "keep"), "moving": worst(cycles, "move") },
+    });
+    Ok(page(&TEMPLATES, "index.html", context)?)
+}
+
+/// The page on beds of spheres.
+///
+/// # Errors
+/// [`ReportError::Draw`].
+pub fn spheres(made: &Made) -> Result<String, ReportError> {
+    let report = &made.report;
+    let steel = curves::steel(&report.spheres);
+    let context = json!({ "report": report, "plan": plan(), "origin": origin(&report.made), "steel": steel });
+    Ok(page(&TEMPLATES, "spheres.html", context)?)
+}
+
+/// The page on a case of the user's.
+///
+/// # Errors
+/// [`ReportError::Draw`].
+pub fn case(report: &CaseReport) -> Result<String, ReportError> {
+    let points: Vec<Point> = report.rows.iter().map(|row| row.point.clone()).collect();
+    let stairs = [0, 1].map(|which| stairs(&points, which));
+    let context = json!({ "report": report, "families": case::ladder::FAMILIES, "origin": origin(&report.made), "stairs": stairs });
+    Ok(page(&TEMPLATES, "case.html", context)?)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The sections that a quick report leaves empty.
+    #[test]
+    fn what_only_the_full_report_has_is_drawn() {
+        let cycles: Vec<_> = ["keep", "move", "discs"]
+            .map(|name| json!({ "name": name, "stops": vec![1.0; 41], "anisotropy": 1.3 }))
+            .to_vec();
+        let failures = json!({
+            "rows": [{ "method": "m", "condition": "c", "predicted": "p", "behaviour": "ended", "as_allowed": false, "message": "<x>" }],
+            "contrast": [{ "contrast": 1.0, "cells": 10, "predicted": 0.0, "measured": 1e-9 },
+                         { "contrast": 10.0, "cells": 10, "predicted": 5.0, "measured": 5.5 }],
+            "slant": [{ "angle": 50.0, "cells": [100, 30], "correctors": 0, "error": 0.4 },
+                      { "angle": 70.0, "cells": [100, 30], "correctors": 0, "error": 2.5 },
+                      { "angle": 80.0, "cells": [50, 15], "correctors": 3, "error": null, "outcome": "failed" }],
+            "cycles": cycles,
+            "drift": [{ "model": "increment", "strain": -0.02, "stress": [[1.0, 3.0], [5.0, 4.0]] }],
+        });
+        let context =
+            json!({ "report": { "failures": failures }, "cycles": { "fixed": 3.25, "moving": null } });
+        let html = page(&TEMPLATES, "edge.html", context).unwrap();
+        let said = [
+            "0 of 1 rows",
+            "ended, NOT as it should be",
+            "&lt;x&gt;",
+            "1e-9 % without",
+            "70 degrees on",
+            "80 degrees: failed.",
+            "id=\"cycles\"",
+            "1.0000, 1.0000 and 1.0000 (K_xx/K_yy in the end 1.30)",
+            "3.2 % with a fixed packing, – %",
+            "4 % (increment)",
+        ];
+        for text in said {
+            assert!(html.contains(text), "{text}: {html}");
         }
-    );
-    page += "<p class=\"source\">How values are known. <b>committed</b>: the reference by DEM, three packings, \
-             <code>cases/reference/make</code>, commit as above. <b>measured</b>: by this run of the report. <b>cached</b>: measured by an earlier one \
-             with the same programs, parameters and processor. <b>extrapolated</b>: from a shorter run. <b>quoted</b>: from the paper. \
-             Nothing is fitted to these runs: conductivity, stress, mechanical tangent and wall friction come from the database of \
-             small boxes. Cost is processor time of one process, start and output included. Beds of spheres have a page of their own, spheres.html beside this one.</p>\n";
-    page += &chart::section(made)?;
-    page += &requests::section(made)?;
-    page += &validation::section(made)?;
-    page += &edge::section(made)?;
-    let _ = write!(page, "<h2>Left out</h2>\n<ul>\n");
-    for text in &report.left_out {
-        let _ = writeln!(page, "<li>{}</li>", escape(text));
     }
-    Ok(numbered(&(page + "</ul>\n</body>\n</html>\n")))
 }

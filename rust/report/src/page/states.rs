@@ -1,31 +1,28 @@
-//! Section of the page with the states at which the solver evaluates the model, beside those of the database, and with the
-//! grains around P2.
+//! States at which the solver evaluates the model, compared with the database, and the grains around P2.
 
-use super::html::{Figure, case_name};
-use crate::ReportError;
+use super::case_name;
 use crate::plan::{CHARTED, FAMILIES};
 use crate::report::Made;
 use crate::studies::detail::REGIONS;
-use crate::studies::known::{DATABASE, KnownStates};
-use msdd_draw::{Axis, Cells, Line, Map, Marker, Series, Sheet, Style, maps, plot};
+use crate::studies::known::KnownStates;
+use msdd_draw::{Cells, Map, Sheet, maps};
 use msdd_reference::results::Table;
 use msdd_reference::solver::{COLUMNS, Run};
+use serde_json::{Value, json};
 
-pub fn section(made: &Made) -> Result<String, ReportError> {
-    Ok(queries(made)? + &around_the_middle(made)?)
+pub fn all(made: &Made) -> Value {
+    let (queries, inside) = queries(made).unwrap_or_default();
+    let (grains, porosities) = around_the_middle(made);
+    json!({
+        "queries": queries, "inside": inside, "known": made.known.states, "grains": grains, "porosities": porosities,
+    })
 }
 
 /// State of a sub-region: porosity, fabric index, p ℓ/(E r̄), strain since the start [-].
 type State = [f64; 4];
 /// Sub-regions drawn in colour, those of P1, P2 and P3, and their style.
-const PROBED: [(usize, &str, Style); 3] = [
-    (11, "sub-region of P1", Style { line: Line::Solid, ..STYLE }),
-    (14, "of P2", Style { colour: 2, line: Line::Dashed, ..STYLE }),
-    (18, "of P3", Style { colour: 3, line: Line::Dotted, ..STYLE }),
-];
-const STYLE: Style = Style { colour: 1, marker: Marker::None, line: Line::Solid, hollow: false, size: 4 };
-const OTHERS: Style = Style { colour: 4, ..STYLE };
-const HULL: Style = Style { colour: 0, ..STYLE };
+const PROBED: [(usize, &str); 3] =
+    [(11, "1 solid | sub-region of P1"), (14, "2 dashed | of P2"), (18, "3 dotted | of P3")];
 
 fn column(name: &str) -> usize {
     COLUMNS.iter().position(|c| *c == name).unwrap_or(0)
@@ -61,12 +58,8 @@ fn histories(made: &Made, run: &Run, start: &Run) -> Vec<Vec<State>> {
     histories
 }
 
-fn hull_line(hull: &[[f64; 2]]) -> Series {
-    let points = hull.iter().chain(hull.first()).map(|p| (p[0], p[1])).collect();
-    Series { points, bars: Vec::new(), style: HULL }
-}
-
-fn queries(made: &Made) -> Result<String, ReportError> {
+/// The states in three planes for each case, and the shares of those inside of the hulls in words.
+fn queries(made: &Made) -> Option<(String, String)> {
     let planes = [
         ("fabric index [-]", 1, &made.known.porosity_fabric),
         ("pressure over E r̄/ℓ [-]", 2, &made.known.porosity_pressure),
@@ -75,33 +68,28 @@ fn queries(made: &Made) -> Result<String, ReportError> {
     let named = |family: &str| {
         made.report.validation.iter().find(|v| v.family == family).map(|v| v.configuration.clone())
     };
-    let (Some(moving), Some(staying)) = (named(FAMILIES[1]), named(FAMILIES[0])) else {
-        return Ok(String::new());
-    };
-    let start = made.details.start.get(&staying).and_then(|runs| runs.first());
-    let x = Axis { label: "porosity [-]", log: false, range: None };
-    let (mut panels, mut said) = (Vec::new(), Vec::new());
+    let (moving, staying) = (named(FAMILIES[1])?, named(FAMILIES[0])?);
+    let start = made.details.start.get(&staying)?.first()?;
+    let (mut text, mut said) = (String::new(), Vec::new());
     for case in CHARTED {
         let run = made.details.watched.get(&(case.to_string(), moving.clone())).and_then(|runs| runs.first());
-        let (Some(run), Some(start)) = (run, start) else { continue };
+        let Some(run) = run else { continue };
         let histories = histories(made, run, start);
         let mut shares = Vec::new();
         for (label, k, hull) in planes {
-            let line = |history: &[State], style| Series {
-                points: history.iter().map(|s| (s[0], s[k])).collect(),
-                bars: Vec::new(),
-                style,
+            let title = label.split(" [").next().unwrap_or(label);
+            text.push_str(&format!("panel case {}: {title}\ny {label}\n", case_name(case)));
+            let mut line = |look: &str, points: &mut dyn Iterator<Item = [f64; 2]>| {
+                text.push_str(&format!("series {look}\n"));
+                points.for_each(|[x, y]| text.push_str(&format!("{x} {y}\n")));
             };
-            let mut series: Vec<Series> = vec![hull_line(hull)];
-            series.extend(histories.iter().map(|history| line(history, OTHERS)));
-            series.extend(PROBED.iter().filter_map(|(k, _, style)| Some(line(histories.get(*k)?, *style))));
-            let y = Axis { label, log: false, range: None };
-            panels.push(plot(
-                &format!("case {}: {}", case_name(case), label.split(" [").next().unwrap_or(label)),
-                &x,
-                &y,
-                &series,
-            )?);
+            line("0 solid | hull of the database", &mut hull.iter().chain(hull.first()).copied());
+            for history in &histories {
+                line("4 solid | other sub-regions", &mut history.iter().map(|s| [s[0], s[k]]));
+            }
+            for (region, look) in PROBED {
+                line(look, &mut histories.get(region).into_iter().flatten().map(|s| [s[0], s[k]]));
+            }
             let all: Vec<[f64; 2]> = histories.iter().flatten().map(|s| [s[0], s[k]]).collect();
             let inside = all.iter().filter(|point| KnownStates::holds(hull, **point)).count();
             shares.push(format!("{:.0}", 100.0 * inside as f64 / all.len().max(1) as f64));
@@ -109,19 +97,7 @@ fn queries(made: &Made) -> Result<String, ReportError> {
         let clamped = 100.0 * run.clamped_queries as f64 / run.cell_queries.max(1) as f64;
         said.push(format!("{}: {} %, {clamped:.1} %", case_name(case), shares.join(", ")));
     }
-    let caption = format!(
-        "Fig. #. States at which the solver evaluates the model (paper, Fig. 12): state of 10 × 3 sub-regions over 20 s, packing 1, grains that move. In each step the model \
-         strains these states. Line: hull of the {} thermal states of the database that bear load, with the same states turned by \
-         90°. Share of the states inside the three hulls, and share of the evaluations for single cells that are outside of the range of the model's training in any variable: {}.",
-        made.known.states,
-        said.join("; ")
-    );
-    let mut keys: Vec<(Style, String)> =
-        PROBED.iter().map(|(_, name, style)| (*style, (*name).to_string())).collect();
-    keys.push((OTHERS, "other sub-regions".to_string()));
-    keys.push((HULL, "hull of the database".to_string()));
-    let source = format!("database committed, {DATABASE}; solver measured and cached");
-    Figure { id: "queries", panels, keys, caption, source: &source }.html(&made.report.made)
+    Some((text, said.join("; ")))
 }
 
 /// A grain: centre and radius \[m\], and its largest overlap over its radius [%].
@@ -167,7 +143,8 @@ fn porosity([low, high]: [[f64; 2]; 2], list: &[Grain]) -> f64 {
     1.0 - covered / LINES as f64 / (high[0] - low[0])
 }
 
-fn around_the_middle(made: &Made) -> Result<String, ReportError> {
+/// Maps of the grains, and the porosity of their window in words.
+fn around_the_middle(made: &Made) -> (Vec<String>, String) {
     let mut shown = Vec::new();
     for case in CHARTED {
         let result = made.references.iter().find(|r| r.case == case).and_then(|r| r.results.first());
@@ -194,15 +171,7 @@ fn around_the_middle(made: &Made) -> Result<String, ReportError> {
         panels.push(maps(&sheet, &[Map { name: "", cells: &cells, values: &values }]));
         said.push(format!("{name} {inside:.1} %"));
     }
-    if panels.is_empty() {
-        return Ok(String::new());
-    }
-    let caption = format!(
-        "Fig. #. Grains of packing 1 in a window of 120 mm around P2, before and after (paper, Fig. 13): light where they overlap. Porosity of the window: {}.",
-        said.join("; ")
-    );
-    Figure { id: "grains", panels, keys: Vec::new(), caption, source: "DEM committed" }
-        .html(&made.report.made)
+    (panels, said.join("; "))
 }
 
 #[cfg(test)]

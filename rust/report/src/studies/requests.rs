@@ -2,10 +2,11 @@
 //! `cases/scenes`.
 
 use crate::{ReportError, read_text};
+use serde::Serialize;
 use std::path::Path;
 
 /// One request.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Request {
     pub scene: String,
     /// `calibrate`, `judge` or `outside`.
@@ -47,7 +48,7 @@ impl Request {
 }
 
 /// What became of the requests for one accuracy in the scenes of one kind.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Tally {
     pub purpose: String,
     /// Wanted accuracy [% of the range of T].
@@ -95,7 +96,7 @@ pub fn tallies(requests: &[Request]) -> Vec<Tally> {
 }
 
 /// How the 90 % bands of a quantity do in the scenes of one kind.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Band {
     pub quantity: String,
     pub purpose: String,
@@ -107,7 +108,7 @@ pub struct Band {
 }
 
 /// Both tables.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Judged {
     pub requests: Vec<Request>,
     pub bands: Vec<Band>,

@@ -1,4 +1,4 @@
-//! Beds of spheres: error against cost of the solver beside DEM, and beds that were measured.
+//! Beds of spheres: error against cost of the solver compared with DEM, and beds that were measured.
 
 use crate::jobs::execute::Outcome;
 use crate::jobs::job::{Job, SpheresJob, ToolJob};
@@ -24,7 +24,7 @@ pub struct SphereRun {
     pub family: &'static str,
     pub name: String,
     pub core_seconds: Option<f64>,
-    /// Root mean square and worst difference by quantity: T in % of its range beside elements, in K beside measurements; else
+    /// Root mean square and worst difference by quantity: T in % of its range compared with elements, in K compared with measurements; else
     /// in %.
     pub errors: BTreeMap<String, [f64; 2]>,
     pub outcome: &'static str,
@@ -46,13 +46,13 @@ pub struct ZehnerBed {
 #[derive(Clone, Debug, Serialize)]
 pub struct Spheres {
     pub runs: Vec<SphereRun>,
-    /// DEM beside the measurements: rms by the way to take the plate \[K\], and the cost of both together.
+    /// DEM compared with the measurements: rms by the way to take the plate \[K\], and the cost of both together.
     pub elements: BTreeMap<String, f64>,
     pub elements_core_seconds: Option<f64>,
     pub zehner: Vec<ZehnerBed>,
     #[serde(skip)]
     pub measured: Vec<Measured>,
-    /// T at the probes of the shipped case beside the measurements.
+    /// T at the probes of the shipped case compared with the measurements.
     #[serde(skip)]
     pub simulated: Vec<Record>,
 }
