@@ -103,6 +103,26 @@ fn cells(run: &Run, drawn: &[bool]) -> (Cells, Vec<(usize, usize)>) {
 
 /// Maps of all quantities that were written: names of the fields and their figures. `times`: numbers of the times.
 pub fn all(run: &Run, times: &[usize], shades: usize) -> Result<Vec<(&'static str, String)>, CliError> {
+    each(run, times, shades, |sheet, list| msdd_draw::maps(sheet, list))
+}
+
+/// The same with a figure for each time, all with the colours of the first to the last.
+pub fn frames(
+    run: &Run,
+    times: &[usize],
+    shades: usize,
+) -> Result<Vec<(&'static str, Vec<String>)>, CliError> {
+    each(run, times, shades, |sheet, list| {
+        list.iter().map(|one| msdd_draw::maps(sheet, std::slice::from_ref(one))).collect()
+    })
+}
+
+fn each<T>(
+    run: &Run,
+    times: &[usize],
+    shades: usize,
+    draw: impl Fn(&Sheet, &[Map]) -> T,
+) -> Result<Vec<(&'static str, T)>, CliError> {
     let mut figures = Vec::new();
     for quantity in &QUANTITIES {
         let read = |&time: &usize| {
@@ -129,10 +149,11 @@ pub fn all(run: &Run, times: &[usize], shades: usize) -> Result<Vec<(&'static st
         lists.iter_mut().flatten().for_each(|value| *value *= factor);
         let names: Vec<String> = times.iter().map(|&time| run.time(time)).collect();
         let label = format!("[{unit}]");
-        let sheet = Sheet { title: quantity.name, label: &label, shades, ..Sheet::default() };
+        let range = Some(range_of(lists.iter().flatten()));
+        let sheet = Sheet { title: quantity.name, label: &label, range, shades, ..Sheet::default() };
         let list: Vec<Map> =
             names.iter().zip(&lists).map(|(name, values)| Map { name, cells: &cells, values }).collect();
-        figures.push((quantity.field, msdd_draw::maps(&sheet, &list)));
+        figures.push((quantity.field, draw(&sheet, &list)));
     }
     Ok(figures)
 }

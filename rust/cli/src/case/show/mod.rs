@@ -1,5 +1,6 @@
 //! `msdd case show`: a page with the results of a run.
 
+mod animation;
 mod curves;
 mod maps;
 mod page;
@@ -30,6 +31,7 @@ A run that is still at work is shown with the times that are written. Binary fie
 Examples:
   msdd case show cases/H                              writes cases/H/show.html
   msdd case show bed --times 0,600,3600               maps at other times
+  msdd case show bed --animate                        with maps that move
   msdd case show bed --png bed.png                    and the maps as a picture
   msdd case show bed --svg bed.svg --figures T,outlet some figures as a picture"
 )]
@@ -42,6 +44,9 @@ pub struct Arguments {
     /// Times at which maps are drawn [s], with commas; of each the nearest written one is taken. Default: three, to the end.
     #[arg(long, value_name = "T,...", value_delimiter = ',', allow_negative_numbers = true)]
     times: Vec<f64>,
+    /// Add maps that move: a slider and a button for at most 60 of the written times.
+    #[arg(long)]
+    animate: bool,
     /// Write the maps as one PNG picture, too.
     #[arg(long, value_name = "FILE")]
     png: Option<PathBuf>,
@@ -59,7 +64,7 @@ pub fn run(arguments: &Arguments) -> Result<(), CliError> {
     if arguments.png.is_some() || arguments.svg.is_some() {
         pictures(&run, arguments)?;
     }
-    msdd_files::write(&out, page::text(&run)?.as_bytes())?;
+    msdd_files::write(&out, page::text(&run, arguments.animate)?.as_bytes())?;
     outln!("{}", out.display());
     Ok(())
 }

@@ -41,14 +41,15 @@ pub fn figures(run: &Run, shades: usize, last_alone: bool) -> Result<Vec<Figure>
     Ok(figures)
 }
 
-/// The page. Maps of large meshes get fewer colours, or show the last time alone, until the page is small enough.
-pub fn text(run: &Run) -> Result<String, CliError> {
+/// The page. Maps of large meshes get fewer colours, or show the last time alone, until the page is small enough. With `animated` maps,
+/// too, if wanted.
+pub fn text(run: &Run, animated: bool) -> Result<String, CliError> {
     let mut page = String::new();
     for (shades, last_alone) in COLOURS.into_iter().map(|shades| (shades, false)).chain([(COLOURS[2], true)])
     {
         page = whole(run, &figures(run, shades, last_alone)?, last_alone)?;
         if page.len() < MOST {
-            return Ok(page);
+            return if animated { super::animation::add(run, &page, MOST) } else { Ok(page) };
         }
     }
     let (bytes, most) = (page.len(), MOST);
