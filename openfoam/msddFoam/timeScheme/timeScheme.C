@@ -37,7 +37,7 @@ const Foam::keyTable Foam::timeScheme::keys
             "wanted accuracy of T in percent of its range. Above 0 `msddFoam`"
             " does not run this case: `msdd case solve` finds the cheapest"
             " mesh, steps and motion of the grains and runs them in a folder"
-            " next to the case; see [What a scene needs](../theory/choice.md)."
+            " next to the case; see [Mesh, steps and motion](../theory/choice.md)."
             " Other keys then have no effect. On one process only", "%",
             "0 to 100", "0"
         },
