@@ -45,7 +45,7 @@ pub(crate) struct Conductivity {
 // Below the law's range the closure goes on from its end.
 const _: () = assert!(GAS_RANGE[0] == MIN_NUMBER);
 
-/// Solid fraction of a bed beside a wall, which hardly matters for the part of radiation in its conductivity.
+/// Solid fraction of a bed next to a wall, which hardly matters for the part of radiation in its conductivity.
 const REFERENCE_SOLID: f64 = 0.6;
 
 /// Least number of contacts per sphere of a packing that bears load.

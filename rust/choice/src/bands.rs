@@ -1,6 +1,6 @@
 //! How far the discs of a real bed may lie from a run: 90 % bands of temperature, pressure, conductivity and displacement.
 //!
-//! A band has two parts beside the errors of the numerical method: what the model leaves out, and the scatter of packings. Both are
+//! A band has two parts in addition to the errors of the numerical method: what the model leaves out, and the scatter of packings. Both are
 //! a fitted number times a length that the run itself gives:
 //!
 //! | | model | packing |

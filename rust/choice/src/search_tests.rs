@@ -283,7 +283,7 @@ fn a_refusal_names_what_of_t_and_p_cannot_be_had_and_the_best_of_it() {
     let wanted =
         format!("pressureAccuracy = 5 %, allowed: at least {best:.2} % for this scene: model and packing");
     assert!(text.starts_with(&wanted) && text.contains("of the range of p open"), "{text}");
-    // T beside it
+    // T next to it
     let both = missed(with_pressure(1e-6, 5.0, 0.0));
     assert_eq!(both.iter().map(|one| one.key).collect::<Vec<_>>(), ["accuracy", "pressureAccuracy"]);
     assert!((both[1].best / best - 1.0).abs() < 1e-9 && with_pressure(both[0].best, best, 0.0).is_ok());

@@ -19,7 +19,7 @@ pub struct Series {
     pub values: Vec<Vec<f64>>,
 }
 
-/// JSON has null in place of NaN.
+/// JSON has null instead of NaN.
 fn with_gaps<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<Vec<f64>>, D::Error> {
     let rows: Vec<Vec<Option<f64>>> = Vec::deserialize(deserializer)?;
     Ok(rows.into_iter().map(|row| row.into_iter().map(|value| value.unwrap_or(f64::NAN)).collect()).collect())

@@ -56,7 +56,7 @@ pub struct Settings {
     /// Factor of the conductivity: 1, but for the run that shows what another conductivity would change.
     #[serde(default = "one", skip_serializing_if = "is_one")]
     pub conductivity: f64,
-    /// Constant conductivity of the bed along x and y [W/(m K)] in place of the model.
+    /// Constant conductivity of the bed along x and y [W/(m K)] instead of the model.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub constant: Option<[f64; 2]>,
     /// Directions of which the half up to the middle is run, with half the cells; the others are run whole.

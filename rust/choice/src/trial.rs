@@ -84,7 +84,7 @@ impl Outcome {
     }
 }
 
-/// Makes the case of `settings` in `folder`, which stands beside the user's, so that relative paths in its files mean the same.
+/// Makes the case of `settings` in `folder`, which stands next to the user's, so that relative paths in its files mean the same.
 /// `range`: of T \[K\], once it is known.
 ///
 /// # Errors
@@ -140,7 +140,7 @@ fn accompany(scene: &UserCase, folder: &Path) -> Result<(), ChoiceError> {
     Ok(write(&folder.join(format!("{name}.foam")), b"")?)
 }
 
-/// Makes a copy of the user's case as it is in `folder`, which stands beside it; its mesh is linked.
+/// Makes a copy of the user's case as it is in `folder`, which stands next to it; its mesh is linked.
 ///
 /// # Errors
 /// When files cannot be read or written, or `folder` is somebody else's.

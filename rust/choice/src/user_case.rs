@@ -123,7 +123,7 @@ pub struct UserCase {
     pub pressure_accuracy: Option<f64>,
     /// Whether grains move, if the case says so.
     pub moves: Option<bool>,
-    /// An error if the mesh is not that of `system/blockMeshDict`; then it is taken as it is, for the reason beside.
+    /// An error if the mesh is not that of `system/blockMeshDict`; then it is taken as it is, for the reason given.
     pub blocks: Result<Blocks, String>,
     pub cells: usize,
     /// Points at which runs are compared \[m\].
@@ -145,7 +145,7 @@ pub struct UserCase {
     pub in_space: bool,
 }
 
-/// Settings are looked for on other meshes of the bed, which solids beside it would have to follow.
+/// Settings are looked for on other meshes of the bed, which solids next to it would have to follow.
 fn refuse_regions(folder: &Path) -> Result<(), ChoiceError> {
     let file = folder.join("constant/regionProperties");
     if !file.exists() {

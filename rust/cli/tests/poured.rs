@@ -68,7 +68,7 @@ fn the_law_is_followed_along_the_strain_inside() {
     assert!(!told.contains("NaN"), "{told}");
 }
 
-/// Beds tell nothing of the gas, so that a law of them alone would be wrong beside it.
+/// Beds tell nothing of the gas, so that a law of them alone would be wrong next to it.
 #[test]
 fn a_law_of_beds_alone_is_refused() {
     let folder = Folder::new("alone");

@@ -11,7 +11,7 @@ use crate::disc::Disc;
 use crate::walls::Walls;
 use msdd_engine::Lattice;
 
-/// Shear of a periodic box, beside the positions and normal velocities of [`Walls`].
+/// Shear of a periodic box, in addition to the positions and normal velocities of [`Walls`].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Periodic {
     /// s \[m\]: displacement along x of the upper image relative to the lower.

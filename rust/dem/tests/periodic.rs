@@ -119,7 +119,7 @@ fn a_disc_without_a_velocity_ends_the_run() {
     }
 }
 
-/// A sticking pair across the border, beside a disc that flies about when `fast` is not 0 and so causes rebuilds.
+/// A sticking pair across the border, next to a disc that flies about when `fast` is not 0 and so causes rebuilds.
 fn stuck(fast: f64) -> Simulation {
     let disc = |x: f64, y: f64| Disc::at_rest(x, y, 5e-3, 3000.0);
     let third = Disc { vx: 0.2 * fast, vy: fast, ..disc(0.025, 0.02) };

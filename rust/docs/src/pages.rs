@@ -34,7 +34,7 @@ impl Page {
         Self { file: file.into(), text: text.into(), printed: Vec::new() }
     }
 
-    /// Puts printed text in place of these bytes, which lie before all that was put earlier.
+    /// Puts printed text instead of these bytes, which lie before all that was put earlier.
     pub(crate) fn put(&mut self, bytes: Range<usize>, text: &str) {
         self.text.replace_range(bytes.clone(), text);
         for later in &mut self.printed {

@@ -2,7 +2,7 @@
 //!
 //! | module | what |
 //! |---|---|
-//! | [`part`] | writes a file beside the one that it will replace, and then renames it |
+//! | [`part`] | writes a file next to the one that it will replace, and then renames it |
 //! | [`lock`] | a lock, so that only one program at a time works on a file |
 //! | [`limit`] | reads files up to a limit of size |
 //! | [`folder`] | the contents of a folder |

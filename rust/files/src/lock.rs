@@ -6,7 +6,7 @@ use std::io::{self, Read, Write};
 use std::os::unix::fs::MetadataExt;
 use std::path::{Path, PathBuf};
 
-/// Shows other programs, by a locked file beside a file, that this program is at work on it. The operating system releases
+/// Shows other programs, by a locked file next to a file, that this program is at work on it. The operating system releases
 /// the lock when the program ends, however it ends, so the lock file of a killed program does not keep others out.
 #[derive(Debug)]
 pub struct Lock {

@@ -1,4 +1,4 @@
-//! Writing a file whole or not at all: it is written beside the one that it will replace, and then renamed.
+//! Writing a file whole or not at all: it is written next to the one that it will replace, and then renamed.
 
 use crate::FileError;
 use std::fs::{self, FileType, Permissions};
@@ -18,7 +18,7 @@ pub struct Part {
 }
 
 impl Part {
-    /// Makes an empty file beside `file`, and its folder when it is missing.
+    /// Makes an empty file next to `file`, and its folder when it is missing.
     ///
     /// # Errors
     /// Those of [`check_target`]; [`FileError::Write`].

@@ -4,7 +4,7 @@
 //! | module | what |
 //! |---|---|
 //! | [`model`] | the packed initial model and its statistics |
-//! | [`start`] | the start of a case beside that packing |
+//! | [`start`] | the start of a case compared with that packing |
 //! | [`mod@observe`] | what is recorded of a state: series, sub-regions, profiles |
 //! | [`run`](mod@run) | heat, expansion and motion to the end time |
 //! | [`checkpoint`] | files from which a killed run continues |

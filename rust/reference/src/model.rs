@@ -82,7 +82,7 @@ pub struct Model {
     pub settled: Settled,
 }
 
-/// Statistics of the initial model, beside the values that the paper gives for its own.
+/// Statistics of the initial model, compared with the values that the paper gives for its own.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Statistics {
     /// Porosity of the box, overlaps counted once; paper: 0.125.

@@ -1,4 +1,4 @@
-//! The start of a case beside the packing that is simulated for it.
+//! The start of a case compared with the packing that is simulated for it.
 
 use crate::model::Statistics;
 use crate::{Case, ReferenceError};

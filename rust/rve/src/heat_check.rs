@@ -108,7 +108,7 @@ fn flux_and_gradient(simulation: &Simulation, axis: Axis) -> (f64, f64) {
 }
 
 /// Affine and network conductivity along the axis, and the number of windows. The windows fill the inner part from one
-/// insulated wall to the other. Windows beside each other conduct in parallel (mean), those behind each other in series
+/// insulated wall to the other. Windows next to each other conduct in parallel (mean), those behind each other in series
 /// (harmonic mean).
 fn inner_windows(simulation: &Simulation, axis: Axis) -> ([f64; 2], usize) {
     let (along, _, inner) = ends(simulation, axis);

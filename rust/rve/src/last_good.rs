@@ -1,4 +1,4 @@
-//! The last good state of a run that failed, written beside the file that the run should have written.
+//! The last good state of a run that failed, written next to the file that the run should have written.
 
 use crate::Simulation;
 use crate::state::{StateError, to_file};

@@ -51,7 +51,7 @@ pub fn contacts(simulation: &Simulation) -> String {
     file + "</CellData>\n</Piece></PolyData></VTKFile>\n"
 }
 
-/// A time series (PVD) of files beside it: (time \[s\] or strain, file name).
+/// A time series (PVD) of files next to it: (time \[s\] or strain, file name).
 pub fn series(files: &[(f64, String)]) -> String {
     let mut text = String::from("<VTKFile type=\"Collection\" version=\"0.1\"><Collection>\n");
     for (time, file) in files {

@@ -81,7 +81,7 @@ fn a_sphere_that_runs_around_presses_outwards() {
     assert!((force[0].hypot(force[1]) / expected - 1.0).abs() < 1e-3, "{force:?} {expected}");
 }
 
-/// The balance of energy closes beside a cylinder that moves.
+/// The balance of energy closes next to a cylinder that moves.
 #[test]
 fn the_balance_of_energy_closes() {
     let material = Material { friction: 0.4, wall_friction: 0.3, restitution: 0.5, ..glass() };

@@ -317,7 +317,7 @@ pub fn plugin(source: &str) -> String {
     format!("plugin:{}", out.display())
 }
 
-/// Source of the built-in model as a plug-in. It is a dev-dependency, so its shared library lies beside the tests.
+/// Source of the built-in model as a plug-in. It is a dev-dependency, so its shared library lies next to the tests.
 pub fn exported() -> String {
     let test = std::env::current_exe().expect("running");
     let library: PathBuf = test.parent().expect("a folder").join("libmsdd_exported.so");

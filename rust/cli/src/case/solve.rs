@@ -92,7 +92,7 @@ struct Wanted {
     pressure: Option<f64>,
 }
 
-/// A folder beside the case.
+/// A folder next to the case.
 pub(crate) fn beside(scene: &UserCase, ending: &str) -> PathBuf {
     let name = scene.folder.file_name().unwrap_or_default().to_string_lossy();
     scene.folder.with_file_name(format!("{name}.{ending}"))

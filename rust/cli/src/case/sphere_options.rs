@@ -1,4 +1,4 @@
-//! The user's choices for a new case of a bed of spheres: options beside those of all beds, and questions.
+//! The user's choices for a new case of a bed of spheres: options in addition to those of all beds, and questions.
 
 use super::common_options::{CommonOptions, HOTTER, MechanicsName, WALL_HELP, coldest};
 use super::prompts::{Prompter, number, temperature};
@@ -422,7 +422,7 @@ impl SphereOptions {
     }
 }
 
-/// Where options gave any wall or a flow, the others are insulated unless answered otherwise; else the first one is hot, and one beside it has
+/// Where options gave any wall or a flow, the others are insulated unless answered otherwise; else the first one is hot, and one next to it has
 /// the temperature of the start.
 fn ask_walls(
     prompter: &Prompter,

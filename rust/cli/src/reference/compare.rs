@@ -1,4 +1,4 @@
-//! `msdd reference compare`: temperatures of a run of the solver beside those of DEM.
+//! `msdd reference compare`: temperatures of a run of the solver compared with DEM.
 
 use crate::error::CliError;
 use clap::Args;

@@ -1,4 +1,4 @@
-//! `msdd reference scenes`: makes the reference scenes of a plan, and sets the solver beside them.
+//! `msdd reference scenes`: makes the reference scenes of a plan, and sets the solver next to them.
 
 use super::bands::{self, Done};
 use super::requests;

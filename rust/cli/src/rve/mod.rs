@@ -84,7 +84,7 @@ pub fn write_state(path: &Path, simulation: &Simulation) -> Result<(), CliError>
     Ok(write(path, state::to_file(simulation).map_err(failed)?.as_bytes())?)
 }
 
-/// Writes the last good state of a failed run beside `out`, and names it in the error.
+/// Writes the last good state of a failed run next to `out`, and names it in the error.
 fn failed(out: &Path, source: RveError, last_good: Option<&Simulation>) -> CliError {
     let Some(state) = last_good else { return CliError::Rve(source) };
     match last_good::write(out, state) {

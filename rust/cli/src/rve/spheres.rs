@@ -94,7 +94,7 @@ pub fn expand(arguments: &ExpandArguments, mut simulation: Simulation) -> Result
     write_state(&arguments.out, &simulation)
 }
 
-/// Writes the last good state of a failed run beside `out`.
+/// Writes the last good state of a failed run next to `out`.
 fn keep(out: &Path, simulation: &Simulation) -> Result<PathBuf, LastGoodError> {
     last_good::write_text(out, &state::to_file(simulation)?)
 }

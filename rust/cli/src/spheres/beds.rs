@@ -18,7 +18,7 @@ use std::path::Path;
 
 /// Kind of path of a bed.
 const NAME: &str = "poured";
-/// [`Track::weight`]: there are thirty beds beside some three hundred and sixty boxes, and beds are what the law is for.
+/// [`Track::weight`]: there are thirty beds compared with some three hundred and sixty boxes, and beds are what the law is for.
 const WEIGHT: f64 = 5.0;
 /// Columns of the strains, and of the state.
 const STRAIN: [&str; 4] = ["thermal_strain", "strain_1", "strain_2", "strain_3"];

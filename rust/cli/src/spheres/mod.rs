@@ -136,7 +136,7 @@ fn print_scores(
     Ok(found)
 }
 
-/// Errors along paths, beside the scatter.
+/// Errors along paths, compared with the scatter.
 fn print_along(found: &[PathErrors], is_trained_on_it: bool) {
     let of = if is_trained_on_it { "packings that were held out" } else { "all packings" };
     outln!(

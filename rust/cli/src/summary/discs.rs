@@ -75,7 +75,7 @@ impl Named {
     }
 }
 
-/// Processor times of the reference runs [s], by case folder: `cost.json` beside the results, written by their script.
+/// Processor times of the reference runs [s], by case folder: `cost.json` next to the results, written by their script.
 fn costs(reference: &Path) -> Result<BTreeMap<String, f64>, CliError> {
     let path = reference.join("cost.json");
     if !path.exists() {

@@ -1,4 +1,4 @@
-//! `msdd summary`: the solver's results in the case folders beside DEM of the same cases, as a table, as JSON
+//! `msdd summary`: the solver's results in the case folders compared with DEM of the same cases, as a table, as JSON
 //! and as a plot.
 
 mod discs;

@@ -24,7 +24,7 @@ fn runs(case: &Named) -> Vec<(&'static str, &CaseResult)> {
     [Some((WAYS[0], &case.stay)), moving].into_iter().flatten().collect()
 }
 
-/// Tables of temperatures, of errors and cost beside the discs, and of the state at the end, and sentences that sum them up.
+/// Tables of temperatures, of errors and cost compared with the discs, and of the state at the end, and sentences that sum them up.
 pub fn text(cases: &[Named]) -> String {
     let mut out = String::new();
     temperatures(&mut out, cases);

@@ -1,4 +1,4 @@
-//! The solver beside the beds of spheres: the tables that `cases/beds/make` wrote; and what plates give, as `msdd bed slack` found.
+//! The solver compared with the beds of spheres: the tables that `cases/beds/make` wrote; and what plates give, as `msdd bed slack` found.
 
 use crate::error::DocsError;
 use crate::gather::beside;

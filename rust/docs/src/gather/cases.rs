@@ -1,4 +1,4 @@
-//! The six cases: the solver by the paper's scheme and with grains that move, beside the committed DEM. All of it
+//! The six cases: the solver by the paper's scheme and with grains that move, compared with the committed DEM. All of it
 //! is in what `msdd summary` writes; errors are computed there.
 
 use crate::error::DocsError;

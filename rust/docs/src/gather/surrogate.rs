@@ -204,7 +204,7 @@ fn along_alike(scores: &Json) -> Result<Vec<Vec<String>>, DocsError> {
     Ok(rows)
 }
 
-/// The law of spheres along paths, beside the scatter between packings that were made and strained alike; and of known states.
+/// The law of spheres along paths, compared with the scatter between packings that were made and strained alike; and of known states.
 fn spheres(section: &mut Section, scores: &Json) -> Result<(), DocsError> {
     let mut known = Vec::new();
     for kind in scores.list("/0")? {

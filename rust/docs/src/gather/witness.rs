@@ -1,4 +1,4 @@
-//! The engine beside YADE: what `tests/engines/run` printed.
+//! The engine compared with YADE: what `tests/engines/run` printed.
 
 use crate::error::DocsError;
 use crate::gather::json::INPUTS;

@@ -13,7 +13,7 @@ const RESULTS: &str = r#"{"schema": "msdd-results-1", "sections": {"cases": {
     "tables": {"first": {"meaning": "all", "source": "a.json", "columns": ["case", "T"], "rows": [["H", "1.0"], ["C", "2.5"]]}}
 }}}"#;
 
-/// Fills `text` in as README.md beside [`RESULTS`]; the text afterwards and what was found.
+/// Fills `text` in as README.md next to [`RESULTS`]; the text afterwards and what was found.
 fn filled(name: &str, text: &str, check: bool) -> (String, Vec<String>) {
     let root = checkout(name, &[("README.md", text), ("docs/results.json", RESULTS)]);
     let found = found(fill(&root, &[PathBuf::from("README.md")], check));

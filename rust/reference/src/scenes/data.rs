@@ -13,7 +13,7 @@ use std::fmt::Write as _;
 use std::io::{Read, Write};
 use std::path::Path;
 
-/// A table: file, columns beside scene and seed, and where a packing has its rows.
+/// A table: file, columns in addition to scene and seed, and where a packing has its rows.
 type Part = (&'static str, &'static [Column], fn(&SceneResults) -> &Table);
 
 /// The tables.

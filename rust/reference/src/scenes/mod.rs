@@ -7,7 +7,7 @@
 //! | [`beds`] | the plan of beds of spheres |
 //! | [`discs`] | one packing by DEM |
 //! | [`data`] | the tables of all packings |
-//! | [`table`] | errors of the solver beside the scatter of the packings |
+//! | [`table`] | errors of the solver compared with the scatter of the packings |
 
 pub mod beds;
 pub mod data;

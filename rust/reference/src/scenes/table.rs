@@ -1,4 +1,4 @@
-//! Errors of the solver in a scene beside the scatter of its packings, at the output times after the start.
+//! Errors of the solver in a scene compared with the scatter of its packings, at the output times after the start.
 
 use crate::ReferenceError;
 use crate::scenes::SceneResults;

@@ -13,7 +13,7 @@ use std::path::{Path, PathBuf};
 /// Number of violations that an error message lists.
 const NAMED: usize = 3;
 
-/// Reads a database of discs, or the CSV that was exported from one (plain or gzip) with its provenance beside it.
+/// Reads a database of discs, or the CSV that was exported from one (plain or gzip) with its provenance next to it.
 ///
 /// # Errors
 /// [`DatabaseError::Incomplete`] when packings of the plan are missing; [`DatabaseError`] for what cannot be read.
