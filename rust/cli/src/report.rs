@@ -151,7 +151,7 @@ impl Targets {
 
     fn write_case(&self, report: CaseReport) -> Result<String, CliError> {
         self.write(&report, &page::case(&report)?)?;
-        msdd_report::write_text(&self.csv(), &case::table::csv(&report))?;
+        msdd_report::write_text(&self.csv(), &page::table(&report)?)?;
         let done = report.rows.iter().filter(|row| row.errors.temperature.is_some()).count();
         let sentences: Vec<&str> = report.choices.iter().map(|choice| choice.sentence.as_str()).collect();
         Ok(format!(

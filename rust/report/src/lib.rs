@@ -61,6 +61,20 @@ pub fn read_text(file: &Path) -> Result<String, ReportError> {
     Ok(msdd_files::read_text(file)?)
 }
 
+/// The rows of a CSV file that may begin with lines of comments.
+///
+/// # Errors
+/// [`ReportError::File`]; [`ReportError::Read`] for a column that is missing or a value that cannot be read.
+pub fn rows<T: serde::de::DeserializeOwned>(file: &Path) -> Result<Vec<T>, ReportError> {
+    parsed(&read_text(file)?)
+        .map_err(|error| ReportError::Read { file: file.to_path_buf(), problem: error.to_string() })
+}
+
+/// The rows of a text as [`rows`].
+fn parsed<T: serde::de::DeserializeOwned>(text: &str) -> Result<Vec<T>, csv::Error> {
+    csv::ReaderBuilder::new().comment(Some(b'#')).from_reader(text.as_bytes()).deserialize().collect()
+}
+
 /// Writes a text file whole, so that a killed program leaves the old file or the new one. Makes the folder if needed.
 ///
 /// # Errors

@@ -1,7 +1,9 @@
-//! The configurations of the report. To add one, add an entry in [`chart`].
+//! The configurations of the report. To add one, add an entry in `plan.toml`.
 
 use crate::jobs::job::{ENGINE, Job, SolverJob, ToolJob};
 use crate::jobs::pool::Asked;
+use serde::Deserialize;
+use std::collections::BTreeMap;
 
 /// Kinds of configurations, which are drawn with different markers and colours.
 pub const FAMILIES: [&str; 9] = [
@@ -42,10 +44,10 @@ impl CostSource {
 #[derive(Clone, Debug)]
 pub struct Configuration {
     pub name: String,
-    pub family: &'static str,
+    pub family: String,
     /// The job without case and packing.
     template: SolverJob,
-    pub cases: Vec<&'static str>,
+    pub cases: Vec<String>,
     /// Whether its K is that of Eq. 9, an upper bound, which is compared with the same of the discs.
     pub affine: bool,
     pub known: CostSource,
@@ -62,213 +64,89 @@ impl Configuration {
     pub fn asked(&self, case: &str, seed: u32) -> Asked {
         Asked { job: Job::Solver(self.job(case, seed)), guess: self.guess }
     }
-    fn named(mut self, name: &str, family: &'static str) -> Self {
-        self.name = name.to_string();
-        self.family = family;
-        self
-    }
-    fn only(mut self, cases: &[&'static str]) -> Self {
-        self.cases = cases.to_vec();
-        self
-    }
-    fn change(mut self, change: impl Fn(SolverJob) -> SolverJob) -> Self {
-        self.template = change(self.template);
-        self
-    }
-    fn on(mut self, mesh: [usize; 2]) -> Self {
-        self.template.mesh = mesh;
-        self
-    }
 }
 
 /// The cases of the chart.
 pub const CHARTED: [&str; 3] = ["H", "C", "HC"];
 
-/// The paper's scheme with fixed steps of `step` [s], the law of the increments, and grains that stay where they are.
-fn fixed(step: &str, guess: f64) -> Configuration {
-    let milliseconds = 1e3 * step.parse::<f64>().unwrap_or(0.0);
-    Configuration {
-        name: format!("fixed steps {milliseconds} ms"),
-        family: FAMILIES[0],
-        template: SolverJob::new("", 0).control(&format!("deltaT {step};")),
-        cases: CHARTED.to_vec(),
-        affine: false,
-        known: CostSource::Run,
-        packings: usize::MAX,
-        guess,
+/// A configuration as `plan.toml` describes it.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Entry {
+    name: String,
+    family: String,
+    guess: f64,
+    mesh: Option<[usize; 2]>,
+    cases: Option<Vec<String>>,
+    control: Option<String>,
+    solution: Option<String>,
+    grains: Option<String>,
+    #[serde(default)]
+    affine: bool,
+    packings: Option<usize>,
+    end: Option<f64>,
+    limit: Option<u64>,
+    plugin: Option<String>,
+    segment: Option<Other>,
+    answers: Option<Other>,
+}
+
+/// The end of a short run \[s\], and the configuration that has the rest.
+#[derive(Deserialize)]
+struct Other {
+    end: f64,
+    other: String,
+}
+
+impl From<Entry> for Configuration {
+    fn from(entry: Entry) -> Self {
+        let mut template = SolverJob::new("", 0);
+        for (file, text) in [
+            ("system/controlDict", entry.control),
+            ("system/fvSolution", entry.solution),
+            ("constant/granularProperties", entry.grains),
+        ] {
+            template = text.into_iter().fold(template, |job, text| job.with(file, &text));
+        }
+        template.mesh = entry.mesh.unwrap_or(template.mesh);
+        template.end = entry.end.unwrap_or(template.end);
+        template.limit = entry.limit.unwrap_or(template.limit);
+        template.plugin = entry.plugin;
+        let known = match (entry.segment, entry.answers) {
+            (Some(short), _) => CostSource::Segment(short.end, short.other),
+            (None, Some(short)) => CostSource::Answers(short.end, short.other),
+            (None, None) => CostSource::Run,
+        };
+        Self {
+            name: entry.name,
+            family: entry.family,
+            template,
+            cases: entry.cases.unwrap_or_else(|| CHARTED.map(str::to_string).to_vec()),
+            affine: entry.affine,
+            known,
+            packings: entry.packings.unwrap_or(usize::MAX),
+            guess: entry.guess,
+        }
     }
 }
 
-fn second_order(step: &str, guess: f64) -> Configuration {
-    let base = fixed(step, guess).change(|job| job.solution("msddFoam { timeScheme secondOrder; }"));
-    let name = base.name.replace("fixed", "second order, fixed");
-    base.named(&name, FAMILIES[0])
+/// A list of `plan.toml`; a test reads all of them.
+fn list(name: &str, quick: bool) -> Vec<Configuration> {
+    let mut plan: BTreeMap<String, Vec<Entry>> =
+        toml::from_str(include_str!("plan.toml")).unwrap_or_default();
+    let name = if quick { format!("quick-{name}") } else { name.to_string() };
+    plan.remove(&name).unwrap_or_default().into_iter().map(Configuration::from).collect()
 }
-
-/// Adaptive steps of second order with an error of at most `tolerance` [K] in each.
-fn adaptive(tolerance: f64, guess: f64) -> Configuration {
-    let keys = format!(
-        "msddFoam {{ timeScheme secondOrder; temperatureTolerance {tolerance}; stateTolerance 0.5; }}\n\
-         solvers {{ T {{ tolerance 1e-8; }} }}"
-    );
-    fixed("1e-2", guess)
-        .named(&format!("adaptive, {tolerance} K"), FAMILIES[0])
-        .change(|job| job.solution(&keys).control("adjustTimeStep yes;"))
-}
-
-fn moving(step: &str, guess: f64) -> Configuration {
-    let base = fixed(step, guess).change(|job| job.grains("mechanics equilibrium;"));
-    let name = format!("equilibrium, {}", base.name.replace("fixed ", ""));
-    base.named(&name, FAMILIES[1])
-}
-
-fn moving_adaptive(tolerance: f64, guess: f64) -> Configuration {
-    let base = adaptive(tolerance, guess).change(|job| job.grains("mechanics equilibrium;"));
-    let name = format!("equilibrium, {}", base.name);
-    base.named(&name, FAMILIES[1])
-}
-
-fn model(name: &str, family: &'static str, keys: &str, guess: f64) -> Configuration {
-    let base = fixed("1e-2", guess).named(name, family);
-    base.change(|job| job.grains(keys))
-}
-
-const PAPER: &str = "surrogate { model builtin:paper; }";
-const MEDIUM: &str = "surrogate { type plugin; pluginCoeffs { library plugin.so; } }";
 
 /// The configurations of the validation: the paper's algorithm with the law, the paper's network and boxes of
 /// grains in all cells, and the law with grains that move.
 pub fn validated(quick: bool) -> Vec<Configuration> {
-    let all: Vec<&'static str> = msdd_reference::packings::CASES.iter().map(|case| case.0).collect();
-    let mut law = fixed("1e-2", 2.0).named("law of the increments", FAMILIES[0]).only(&all);
-    let mut paper = model("paper's network", FAMILIES[2], PAPER, 3.0).only(&all);
-    let mut moves = moving("2e-2", 25.0).named("law of the increments, grains move", FAMILIES[1]);
-    paper.affine = true;
-    if quick {
-        // On a coarser mesh, and fewer of them
-        (law, paper, moves) =
-            (law.on([25, 8]).only(&CHARTED), paper.on([25, 8]).only(&["HC"]), moves.on([10, 3]));
-        moves = moves.change(|job| job.control("deltaT 0.1;"));
-        moves.guess = 2.0;
-    }
-    let mut list = vec![law, moves, paper];
-    if !quick {
-        list.push(all_boxes().only(&all));
-    }
-    list
+    list("validation", quick)
 }
 
 /// All points of the chart except those of DEM.
 pub fn chart(quick: bool) -> Vec<Configuration> {
-    let coarse = |base: Configuration, mesh: [usize; 2]| {
-        let (name, family) = (format!("{}, {}x{}", base.name, mesh[0], mesh[1]), base.family);
-        base.on(mesh).named(&name, family)
-    };
-    if quick {
-        return vec![
-            coarse(fixed("1e-1", 0.5), [25, 8]),
-            coarse(adaptive(0.5, 0.5), [25, 8]),
-            coarse(model("constant", FAMILIES[4], "surrogate { type constant; }", 0.5), [25, 8])
-                .only(&["HC"]),
-            coarse(fixed("1e-1", 0.5).named("steps 100 ms", FAMILIES[6]), [100, 1]).only(&["HC"]),
-        ];
-    }
-    let mut affine = model("affine conductivity", FAMILIES[0], "surrogate { conductivity affine; }", 2.0);
-    affine.affine = true;
-    let mut paper = model("paper's network, steps 10 ms", FAMILIES[2], PAPER, 3.0);
-    let mut paper_coarse = model("paper's network, steps 100 ms", FAMILIES[2], PAPER, 0.6)
-        .change(|job| job.control("deltaT 0.1;"));
-    (paper.affine, paper_coarse.affine) = (true, true);
-    let mut segment = fixed("1e-4", 10.0).named("fixed steps 0.1 ms", FAMILIES[0]);
-    segment.known = CostSource::Segment(1.0, "fixed steps 1 ms".to_string());
-    segment = segment.change(|mut job| {
-        job.end = 1.0;
-        job
-    });
-    let mut list = vec![
-        fixed("1e-1", 0.5),
-        fixed("1e-2", 2.0),
-        fixed("1e-3", 15.0),
-        segment,
-        second_order("5e-2", 1.0),
-        second_order("1e-2", 4.0),
-        adaptive(1.0, 0.5),
-        adaptive(0.05, 0.8),
-        adaptive(0.005, 2.0),
-        coarse(adaptive(0.5, 0.3), [10, 3]),
-        coarse(adaptive(0.5, 0.3), [25, 8]),
-        coarse(adaptive(0.05, 0.4), [50, 15]),
-        coarse(adaptive(0.05, 3.0), [200, 60]),
-        paper_coarse,
-        paper,
-        affine,
-        model("constant", FAMILIES[4], "surrogate { type constant; }", 1.0),
-        coarse(model("constant", FAMILIES[4], "surrogate { type constant; }", 0.4), [25, 8]),
-        model("steps 10 ms", FAMILIES[3], MEDIUM, 3.0).change(|mut job| {
-            job.plugin = Some("rust/capi/examples/effective_medium.c".to_string());
-            job
-        }),
-        moving("1e-1", 6.0),
-        moving("2e-2", 25.0),
-        coarse(moving("1e-1", 1.0), [10, 3]),
-        coarse(moving("1e-1", 2.0), [25, 8]),
-        coarse(moving("1e-1", 3.0), [50, 15]),
-        moving_adaptive(0.05, 2.0),
-        coarse(moving_adaptive(0.05, 0.7), [50, 15]),
-        coarse(moving_adaptive(0.5, 0.3), [25, 8]),
-        coarse(fixed("1e-1", 0.4).named("steps 100 ms", FAMILIES[6]), [100, 1]).only(&["HC"]),
-        coarse(moving("1e-1", 2.0).named("equilibrium, steps 100 ms", FAMILIES[6]), [100, 1]).only(&["HC"]),
-    ];
-    list.extend(online());
-    list
-}
-
-/// Configurations with boxes of grains that are simulated during the run: one for every cell on coarse meshes; shared by cells
-/// of similar state; and one for every cell of the fine mesh, for which only the cost is estimated.
-fn online() -> Vec<Configuration> {
-    let mut fine = all_cells("2e-3", 150.0).named("all cells, 100x30, one packing", FAMILIES[5]);
-    fine.known = CostSource::Answers(0.4, all_boxes().name);
-    fine = fine.change(|mut job| {
-        job.end = 0.4;
-        job
-    });
-    let mut list = vec![
-        all_cells("1e-3", 40.0).on([10, 3]).named("all cells, 10x3, one packing", FAMILIES[5]),
-        all_boxes(),
-    ];
-    list.push(fine);
-    list.extend([("2e-2", 15.0), ("5e-3", 20.0), ("1e-3", 50.0)].map(|(tolerance, guess)| {
-        let keys = format!("rvePer history; strainTolerance {tolerance};");
-        boxes(&format!("shared, tolerance {tolerance}, 100x30, one packing"), "", &keys, guess)
-    }));
-    let few = "rvePer history; strainTolerance 5e-3; porosityTolerance 5e-3; fabricTolerance 0.1;";
-    list.push(boxes("shared, tolerance 5e-3, few packings, 100x30, one packing", "", few, 10.0));
-    list
-}
-
-/// A box for every cell, on a mesh so coarse that a run takes minutes. Also part of the validation.
-fn all_boxes() -> Configuration {
-    all_cells("2e-3", 200.0).on([30, 9]).named("all cells, 30x9, one packing", FAMILIES[5])
-}
-
-/// A box for every cell, which is simulated again whenever the cell has strained by `strain`.
-fn all_cells(strain: &str, guess: f64) -> Configuration {
-    boxes("", &format!("smallestStrain {strain};"), "", guess)
-}
-
-/// Boxes of grains simulated while the solver runs.
-fn boxes(name: &str, keys: &str, coefficients: &str, guess: f64) -> Configuration {
-    let text = format!(
-        "surrogate {{ type onlineRve; {keys} onlineRveCoeffs {{ conductivity network; compression horizontal; {coefficients} }} }}"
-    );
-    let mut base = model(name, FAMILIES[5], &text, guess).change(|job| job.control("deltaT 0.1;"));
-    base = base.change(|mut job| {
-        job.limit = 1800;
-        job
-    });
-    // One packing only, because these runs cost as much as the rest of the chart together.
-    base.packings = 1;
-    base
+    list("chart", quick)
 }
 
 /// A run of a case by DEM on one thread, to `end` \[s\]. `step`: largest time step \[s\]; `None`: that of the
@@ -300,8 +178,8 @@ mod tests {
         for quick in [true, false] {
             let list = chart(quick);
             let names: BTreeSet<String> = list.iter().map(|c| format!("{} {}", c.family, c.name)).collect();
-            assert_eq!(names.len(), list.len());
-            assert!(list.iter().chain(&validated(quick)).all(|c| FAMILIES.contains(&c.family)));
+            assert!(names.len() == list.len() && list.len() > 3 && validated(quick).len() > 2);
+            assert!(list.iter().chain(&validated(quick)).all(|c| FAMILIES.contains(&c.family.as_str())));
         }
     }
 

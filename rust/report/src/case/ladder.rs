@@ -24,7 +24,7 @@ const HALVED: [i32; 4] = [2, 1, 0, -1];
 /// Steps of one size between two of the times that are compared.
 const STEPS: [u32; 2] = [10, 100];
 /// Tolerance of the runs with constant conductivity.
-const USUAL: f64 = 1e-3;
+const DEFAULT_TOLERANCE: f64 = 1e-3;
 
 /// One configuration.
 #[derive(Clone, Debug)]
@@ -72,7 +72,7 @@ pub fn count(scene: &UserCase, levels: &[Level]) -> usize {
     scene
         .blocks
         .as_ref()
-        .map_or(scene.cells, |blocks| blocks.total(&Settings::new(levels.to_vec(), USUAL, false)))
+        .map_or(scene.cells, |blocks| blocks.total(&Settings::new(levels.to_vec(), DEFAULT_TOLERANCE, false)))
 }
 
 /// The same level along all directions that can be chosen.
@@ -112,7 +112,7 @@ pub fn ladder(scene: &UserCase, range: f64, quick: bool) -> Result<Vec<Rung>, Re
     if let Some(constant) = constant(scene) {
         let coarser = meshes.iter().filter(|levels| levels.iter().all(|level| *level >= Level::Halved(0)));
         for levels in coarser.rev().take(2) {
-            let mut rung = new(levels, USUAL, false);
+            let mut rung = new(levels, DEFAULT_TOLERANCE, false);
             rung.family = FAMILIES[2];
             rungs.push(rung.with("constant/granularProperties", &constant));
         }
@@ -124,7 +124,7 @@ pub fn ladder(scene: &UserCase, range: f64, quick: bool) -> Result<Vec<Rung>, Re
         }
         let step = scene.interval() / f64::from(steps);
         let grains = if moves { "move" } else { "stay" };
-        let mut rung = new(&own, USUAL, moves);
+        let mut rung = new(&own, DEFAULT_TOLERANCE, moves);
         rung.family = FAMILIES[3];
         rung.name = format!("{}, steps of {step:.3e} s, grains {grains}", cells(scene, &own));
         rungs.push(
@@ -158,7 +158,7 @@ fn as_it_is(scene: &UserCase) -> Result<Option<Rung>, ReportError> {
     let scheme = scheme.unwrap_or_else(|| "paper".to_string());
     let levels = level(scene, 0);
     let name = cells(scene, &levels);
-    let settings = Settings::new(levels, USUAL, scene.moves == Some(true));
+    let settings = Settings::new(levels, DEFAULT_TOLERANCE, scene.moves == Some(true));
     let rung = Rung { name, family: FAMILIES[4], settings, range: None, append: BTreeMap::new() };
     let steps = format!("adjustTimeStep {adjust};\ndeltaT {:e};\n", scene.first_step);
     Ok(Some(

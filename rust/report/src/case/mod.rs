@@ -8,13 +8,11 @@
 //! | [`errors`] | how far a run is from the reference |
 //! | [`mod@reference`] | the reference |
 //! | `work` | the case, and the records of its jobs |
-//! | [`table`] | the results as CSV |
 
 pub mod discs;
 pub mod errors;
 pub mod ladder;
 pub mod reference;
-pub mod table;
 mod work;
 
 use crate::ReportError;

@@ -94,7 +94,7 @@ pub struct Place {
 /// Separates the arguments of two commands of one job, which run one after the other.
 pub const THEN: &str = "THEN";
 /// Largest number of characters of a message that are kept.
-const MESSAGE: usize = 400;
+const MAX_MESSAGE: usize = 400;
 
 /// Runs `job` in a folder of its own, which is removed afterwards.
 ///
@@ -310,7 +310,7 @@ fn run_tool(place: &Place, job: &Job, tool: &ToolJob, folder: &Path) -> Result<R
 
 fn short(text: &str) -> String {
     let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
-    text.chars().take(MESSAGE).collect()
+    text.chars().take(MAX_MESSAGE).collect()
 }
 
 fn tail(text: &str) -> String {

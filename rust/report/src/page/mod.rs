@@ -22,7 +22,7 @@ use std::collections::BTreeMap;
 macro_rules! templates {
     ($($name:literal),*) => { [$(($name, include_str!(concat!("../../templates/", $name)))),*] };
 }
-const TEMPLATES: [(&str, &str); 8] = templates!(
+const TEMPLATES: [(&str, &str); 9] = templates!(
     "index.html",
     "chart.html",
     "requests.html",
@@ -30,7 +30,8 @@ const TEMPLATES: [(&str, &str); 8] = templates!(
     "beyond.html",
     "edge.html",
     "spheres.html",
-    "case.html"
+    "case.html",
+    "case.csv"
 );
 
 /// Name of the case in a folder; those without expansion have a star.
@@ -92,6 +93,14 @@ pub fn case(report: &CaseReport) -> Result<String, ReportError> {
     Ok(page(&TEMPLATES, "case.html", context)?)
 }
 
+/// The configurations of a case as CSV, one a line.
+///
+/// # Errors
+/// [`ReportError::Draw`].
+pub fn table(report: &CaseReport) -> Result<String, ReportError> {
+    Ok(page(&TEMPLATES, "case.csv", json!({ "report": report }))?)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -130,5 +139,20 @@ mod tests {
         for text in said {
             assert!(html.contains(text), "{text}: {html}");
         }
+    }
+
+    #[test]
+    fn text_cannot_break_a_line_of_the_table() {
+        let row = json!({
+            "family": "f", "name": "a \"b\", c", "cells": 8, "core_seconds": 1.5, "wall_seconds": null, "front": [true, false],
+            "errors": { "temperature": { "worst": 2.0, "mean": 0.25 }, "pressure": null }, "outcome": "done", "message": "1 < 2"
+        });
+        let text = page(&TEMPLATES, "case.csv", json!({ "report": { "rows": [row] } })).unwrap();
+        let (head, line) = text.split_once('\n').unwrap();
+        assert_eq!(
+            line.trim_end(),
+            "\"f\",\"a \"\"b\"\", c\",8,1.500000,,2.000000,0.250000,,,,,true,false,done,\"1 < 2\""
+        );
+        assert_eq!(head.split(',').count(), 15);
     }
 }

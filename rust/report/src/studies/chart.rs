@@ -63,7 +63,7 @@ pub fn points(settings: &Settings, records: &Records, reference: &Reference) -> 
     let case = reference.case.as_str();
     let mut points: Vec<Point> = Vec::new();
     for configuration in plan::chart(settings.quick) {
-        if configuration.cases.contains(&case) {
+        if configuration.cases.iter().any(|one| one == case) {
             points.push(point(settings, records, reference, &configuration));
         }
     }
@@ -108,7 +108,7 @@ fn point(
     }
     Point {
         name: configuration.name.clone(),
-        family: configuration.family.to_string(),
+        family: configuration.family.clone(),
         core_seconds,
         temperature_error: found.as_ref().map(Errors::largest_temperature),
         pressure_error: found.as_ref().map(|errors| errors.pressure.abs()),

@@ -52,7 +52,7 @@ fn watched(quick: bool) -> impl Iterator<Item = Configuration> {
 
 /// The configurations with the law and with the paper's network, whose initial conductivities differ.
 fn started(quick: bool) -> impl Iterator<Item = Configuration> {
-    plan::validated(quick).into_iter().filter(|c| [FAMILIES[0], FAMILIES[2]].contains(&c.family))
+    plan::validated(quick).into_iter().filter(|c| [FAMILIES[0], FAMILIES[2]].contains(&c.family.as_str()))
 }
 
 pub fn jobs(settings: &Settings) -> Vec<Asked> {

@@ -1,24 +1,28 @@
 //! What became of requests for an accuracy in the reference scenes, and how the error bands do there, from the tables of
 //! `cases/scenes`.
 
-use crate::{ReportError, read_text};
-use serde::Serialize;
+use crate::{ReportError, rows};
+use serde::{Deserialize, Serialize};
 use std::path::Path;
 
 /// One request.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Request {
     pub scene: String,
     /// `calibrate`, `judge` or `outside`.
+    #[serde(alias = "use")]
     pub purpose: String,
     /// Wanted accuracy [% of the range of T].
     pub asked: f64,
     /// What was offered instead, if it was refused [%].
+    #[serde(alias = "best_offered")]
     pub offered: Option<f64>,
     /// Error against the discs [%]; of a refused request the least of some runs.
+    #[serde(alias = "error_discs")]
     pub error: f64,
-    /// Processor time over that of the cheapest run that would have done.
-    pub cost: Option<f64>,
+    /// Processor time, and that of the cheapest run that would have done \[s\].
+    processor_seconds: Option<f64>,
+    cheapest_processor_seconds: Option<f64>,
 }
 
 impl Request {
@@ -27,18 +31,12 @@ impl Request {
     /// # Errors
     /// [`ReportError::File`], [`ReportError::Read`].
     pub fn read(file: &Path) -> Result<Vec<Self>, ReportError> {
-        let request = |row: &Row| {
-            let cost = row.number("processor_seconds").zip(row.number("cheapest_processor_seconds"));
-            Some(Self {
-                scene: row.text("scene")?,
-                purpose: row.text("use")?,
-                asked: row.number("asked")?,
-                offered: row.number("best_offered"),
-                error: row.number("error_discs")?,
-                cost: cost.map(|(own, cheapest)| own / cheapest),
-            })
-        };
-        rows(file, request)
+        rows(file)
+    }
+
+    /// Processor time over that of the cheapest run that would have done.
+    pub fn cost(&self) -> Option<f64> {
+        Some(self.processor_seconds? / self.cheapest_processor_seconds?)
     }
 
     /// Whether the error is within the request.
@@ -79,7 +77,7 @@ pub fn tallies(requests: &[Request]) -> Vec<Tally> {
         let own = requests.iter().filter(|request| request.purpose == purpose && request.asked == asked);
         let (refused, kept): (Vec<_>, Vec<_>) = own.partition(|request| request.offered.is_some());
         let met = |list: &[&Request]| list.iter().filter(|request| request.met()).count();
-        let mut costs: Vec<f64> = kept.iter().filter_map(|request| request.cost).collect();
+        let mut costs: Vec<f64> = kept.iter().filter_map(|request| request.cost()).collect();
         costs.sort_by(f64::total_cmp);
         Tally {
             purpose: purpose.to_string(),
@@ -96,12 +94,14 @@ pub fn tallies(requests: &[Request]) -> Vec<Tally> {
 }
 
 /// How the 90 % bands of a quantity do in the scenes of one kind.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Band {
     pub quantity: String,
+    #[serde(alias = "use")]
     pub purpose: String,
     /// Share of the discs' values inside, and that of the worst scene.
     pub inside: f64,
+    #[serde(alias = "inside_worst_scene")]
     pub worst: f64,
     /// Width over twice the standard deviation between packings.
     pub width: f64,
@@ -120,48 +120,8 @@ impl Judged {
     /// # Errors
     /// [`ReportError::File`], [`ReportError::Read`].
     pub fn read(folder: &Path) -> Result<Self, ReportError> {
-        let band = |row: &Row| {
-            Some(Band {
-                quantity: row.text("quantity")?,
-                purpose: row.text("use")?,
-                inside: row.number("inside")?,
-                worst: row.number("inside_worst_scene")?,
-                width: row.number("width")?,
-            })
-        };
-        Ok(Self {
-            requests: Request::read(&folder.join("requests.csv"))?,
-            bands: rows(&folder.join("bands.csv"), band)?,
-        })
+        Ok(Self { requests: rows(&folder.join("requests.csv"))?, bands: rows(&folder.join("bands.csv"))? })
     }
-}
-
-/// A line of a table with its head.
-struct Row<'a> {
-    head: Vec<&'a str>,
-    cells: Vec<&'a str>,
-}
-
-impl Row<'_> {
-    fn text(&self, column: &str) -> Option<String> {
-        let k = self.head.iter().position(|name| *name == column)?;
-        self.cells.get(k).map(ToString::to_string)
-    }
-
-    fn number(&self, column: &str) -> Option<f64> {
-        self.text(column)?.parse().ok()
-    }
-}
-
-fn rows<T>(file: &Path, read: impl Fn(&Row) -> Option<T>) -> Result<Vec<T>, ReportError> {
-    let text = read_text(file)?;
-    let mut lines = text.lines();
-    let head: Vec<&str> = lines.next().unwrap_or_default().split(',').collect();
-    let row = |line: &str| {
-        read(&Row { head: head.clone(), cells: line.split(',').collect() })
-            .ok_or_else(|| ReportError::Read { file: file.to_path_buf(), problem: format!("'{line}'") })
-    };
-    lines.map(row).collect()
 }
 
 #[cfg(test)]
@@ -176,7 +136,8 @@ mod tests {
             asked,
             offered,
             error,
-            cost,
+            processor_seconds: cost,
+            cheapest_processor_seconds: Some(1.0),
         };
         let requests = [
             request("judge", 1.0, None, 0.5, Some(1.0)),

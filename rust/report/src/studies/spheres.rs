@@ -4,9 +4,9 @@ use crate::jobs::execute::Outcome;
 use crate::jobs::job::{Job, SpheresJob, ToolJob};
 use crate::jobs::pool::{Asked, Records};
 use crate::settings::Settings;
-use crate::{ReportError, read_text};
+use crate::{ReportError, parsed, rows};
 use msdd_beds::experiment::{self, Measured, Record, misfits};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::path::Path;
 
@@ -32,13 +32,14 @@ pub struct SphereRun {
 }
 
 /// One of Zehner's beds: conductivities over that of the gas.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct ZehnerBed {
     pub material: String,
     /// \[K\]
     pub temperature: f64,
     pub measured: f64,
-    pub prediction: f64,
+    #[serde(alias = "prediction_rough")]
+    prediction: Option<f64>,
     pub correlation: f64,
 }
 
@@ -273,41 +274,21 @@ fn probes(text: &str, measured: &[Measured]) -> Vec<Record> {
 
 /// The rows of `comparison.csv` that hold all distances: rms by the way to take the plate.
 fn of_plates(text: &str) -> BTreeMap<String, f64> {
-    let mut lines = text.lines().filter(|line| !line.starts_with('#'));
-    let head: Vec<&str> = lines.next().unwrap_or_default().split(',').collect();
-    let place = |name: &str| head.iter().position(|known| *known == name);
-    let row = |line: &str| {
-        let cells: Vec<&str> = line.split(',').collect();
-        let cell = |name: &str| place(name).and_then(|k| cells.get(k).copied());
-        let rms = cell("rms")?.parse().ok()?;
-        (cell("distance")? == "all").then(|| Some((cell("plate")?.to_string(), rms)))?
-    };
-    lines.filter_map(row).collect()
+    #[derive(Deserialize)]
+    struct Row {
+        plate: String,
+        distance: String,
+        rms: Option<f64>,
+    }
+    let rows: Vec<Row> = parsed(text).unwrap_or_default();
+    let all = rows.into_iter().filter(|row| row.distance == "all");
+    all.filter_map(|row| Some((row.plate, row.rms?))).collect()
 }
 
+/// Beds of unknown density have no prediction and are left out.
 fn zehner(file: &Path) -> Result<Vec<ZehnerBed>, ReportError> {
-    let text = read_text(file)?;
-    let mut lines = text.lines().filter(|line| !line.starts_with('#'));
-    let head: Vec<&str> = lines.next().unwrap_or_default().split(',').collect();
-    let names = ["material", "temperature", "measured", "prediction_rough", "correlation"];
-    let places = names.map(|name| head.iter().position(|known| *known == name));
-    if let Some(missing) = names.iter().zip(places).find(|(_, place)| place.is_none()) {
-        return Err(unread(file, &format!("no column '{}'", missing.0)));
-    }
-    // Beds of unknown density have no prediction.
-    let row = |line: &str| -> Option<ZehnerBed> {
-        let cells: Vec<&str> = line.split(',').collect();
-        let cell = |k: usize| cells.get(places[k]?).copied();
-        let number = |k: usize| cell(k)?.parse().ok();
-        Some(ZehnerBed {
-            material: cell(0)?.to_string(),
-            temperature: number(1)?,
-            measured: number(2)?,
-            prediction: number(3)?,
-            correlation: number(4)?,
-        })
-    };
-    Ok(lines.filter_map(row).collect())
+    let beds: Vec<ZehnerBed> = rows(file)?;
+    Ok(beds.into_iter().filter(|bed| bed.prediction.is_some()).collect())
 }
 
 #[cfg(test)]
@@ -365,6 +346,6 @@ mod tests {
         );
         assert_eq!(plates, BTreeMap::from([("held".to_string(), 0.4), ("resisting".to_string(), 1.9)]));
         let beds = zehner(&checkout().join(ZEHNER)).unwrap();
-        assert!(beds.len() > 60 && beds.iter().all(|bed| bed.prediction > 1.0), "{}", beds.len());
+        assert!(beds.len() > 60 && beds.iter().all(|bed| bed.prediction.unwrap() > 1.0), "{}", beds.len());
     }
 }

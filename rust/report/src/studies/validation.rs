@@ -44,7 +44,7 @@ pub fn validation(
     let mut validated = Vec::new();
     for reference in references {
         for configuration in plan::validated(settings.quick) {
-            if !configuration.cases.contains(&reference.case.as_str()) {
+            if !configuration.cases.contains(&reference.case) {
                 continue;
             }
             let found = complete(
@@ -66,7 +66,7 @@ pub fn validation(
             validated.push(Validated {
                 case: reference.case.clone(),
                 configuration: configuration.name.clone(),
-                family: configuration.family.to_string(),
+                family: configuration.family.clone(),
                 outcome: outcome.as_str().to_string(),
                 message,
                 errors,
