@@ -15,7 +15,7 @@ use std::collections::{BTreeMap, BTreeSet};
 pub type Figure = (&'static str, String);
 
 /// At most so many curves are drawn in a figure, and so many places along an axis.
-const MOST: usize = 8;
+const MAX_CURVES: usize = 8;
 const PLACES: usize = 60;
 /// Most rows of cells along an axis that are drawn one by one, else steps; rows are told apart by this share of the length.
 const MAX_ROWS: usize = 200;
@@ -27,16 +27,16 @@ type Points = Vec<(f64, f64)>;
 
 /// The colours of curves: black first, and the grey at the end.
 fn colour(k: usize) -> usize {
-    [2, 1, 3, 0, 5, 6, 7, 4][k % MOST]
+    [2, 1, 3, 0, 5, 6, 7, 4][k % MAX_CURVES]
 }
 
 fn line(k: usize) -> Style {
-    Style::line(colour(k), [Line::Solid, Line::Dashed, Line::Dotted][k / MOST % 3])
+    Style::line(colour(k), [Line::Solid, Line::Dashed, Line::Dotted][k / MAX_CURVES % 3])
 }
 
-/// Evenly spread numbers of at most [`MOST`] of so many.
+/// Evenly spread numbers of at most [`MAX_CURVES`] of so many.
 fn some(count: usize) -> Vec<usize> {
-    let most = MOST.min(count);
+    let most = MAX_CURVES.min(count);
     (0..most).map(|k| if most < 2 { 0 } else { k * (count - 1) / (most - 1) }).collect()
 }
 
@@ -92,8 +92,8 @@ fn temperature(run: &Run) -> Result<Option<Figure>, CliError> {
         if count > 0 && rows.len() > 1 {
             let named = some(count).into_iter().map(|k| (names[k].clone(), column(&rows, k + 1))).collect();
             let title = match count {
-                ..=MOST => "T at the probes".to_string(),
-                _ => format!("T at {MOST} of {count} probes"),
+                ..=MAX_CURVES => "T at the probes".to_string(),
+                _ => format!("T at {MAX_CURVES} of {count} probes"),
             };
             return over_time("T-time", &title, "K", named);
         }
@@ -262,7 +262,7 @@ fn wall_stress(run: &Run) -> Result<Option<Figure>, CliError> {
     let rows = table.numbers()?;
     let normal =
         |(k, name): (usize, &&str)| Some((name.strip_suffix("_normal")?.to_string(), column(&rows, k)));
-    let walls = table.columns().iter().enumerate().filter_map(normal).take(MOST).collect();
+    let walls = table.columns().iter().enumerate().filter_map(normal).take(MAX_CURVES).collect();
     over_time("wall-stress-time", "normal stress on each wall, mean", "Pa", walls)
 }
 
@@ -280,7 +280,7 @@ fn wall_heat(run: &Run) -> Result<Option<Figure>, CliError> {
         "wall-heat-time",
         "heat through each wall into the bed",
         "W",
-        walls.into_iter().take(MOST).collect(),
+        walls.into_iter().take(MAX_CURVES).collect(),
     )
 }
 
@@ -309,7 +309,7 @@ fn along_walls(run: &Run) -> Result<Vec<Figure>, CliError> {
             let points = points.into_iter().map(|(x, value)| (x, factor * value)).collect();
             (format!("{} (along {})", wall.name, wall.axis), series(points, line(k)))
         };
-        let list = curves.into_iter().take(MOST).enumerate().map(curve).collect();
+        let list = curves.into_iter().take(MAX_CURVES).enumerate().map(curve).collect();
         let title = format!("{title}, at {}", run.time(run.last()));
         let label = format!("[{unit}]");
         let x = from_data("position along the wall [m]", false);
@@ -326,7 +326,7 @@ fn heat(run: &Run) -> Result<Option<Figure>, CliError> {
     let rows = table.numbers()?;
     let wanted = |name: &str| ["patches", "fluids", "sources"].contains(&name) || name.ends_with("stored");
     let named = |(k, name): (usize, &&str)| wanted(name).then(|| (name.replace('_', " "), column(&rows, k)));
-    let list = table.columns().iter().enumerate().filter_map(named).take(MOST).collect();
+    let list = table.columns().iter().enumerate().filter_map(named).take(MAX_CURVES).collect();
     over_time("heat", "heat since the start", "J", list)
 }
 

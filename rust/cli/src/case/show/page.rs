@@ -15,7 +15,7 @@ use serde_json::Value;
 use std::fmt::Write;
 
 /// Most bytes of a page.
-const MOST: usize = 2_000_000;
+const MAX_BYTES: usize = 2_000_000;
 /// Numbers of colours of maps that are tried until the page is small enough.
 const COLOURS: [usize; 3] = [SHADES, 16, 8];
 
@@ -48,11 +48,11 @@ pub fn text(run: &Run, animated: bool) -> Result<String, CliError> {
     for (shades, last_alone) in COLOURS.into_iter().map(|shades| (shades, false)).chain([(COLOURS[2], true)])
     {
         page = whole(run, &figures(run, shades, last_alone)?, last_alone)?;
-        if page.len() < MOST {
-            return if animated { super::animation::add(run, &page, MOST) } else { Ok(page) };
+        if page.len() < MAX_BYTES {
+            return if animated { super::animation::add(run, &page, MAX_BYTES) } else { Ok(page) };
         }
     }
-    let (bytes, most) = (page.len(), MOST);
+    let (bytes, most) = (page.len(), MAX_BYTES);
     Err(CliError::Message(format!(
         "the page of {} would have {bytes} bytes, allowed: {most}; name one time by --times",
         run.name
