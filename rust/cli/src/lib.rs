@@ -32,11 +32,15 @@ use std::process::ExitCode;
 const VERSION: &str = concat!(env!("CARGO_PKG_VERSION"), " (commit ", env!("MSDD_COMMIT"), ")");
 
 const AFTER_HELP: &str = "\
-From a database to results:
+A bed of spheres, from its description to a page of results:
+  msdd case new store --spheres --shape cylinder --radius 0.25 --height 1 --flow 0.05 --flow-temperature 500 --yes
+  store/Allrun
+  msdd case show store --animate
+
+A model of other grains:
   msdd database generate --plan cases/database/quick.toml --out results/quick
   msdd train --database results/quick --out results/model.json
-then name the model in a case's constant/granularProperties, run msddFoam, and
-  msdd summary --cases cases --out results/summary.json --plot results/temperature.svg";
+then name the model in a case's constant/granularProperties and run msddFoam.";
 
 /// Multiscale data-driven simulation of heat conduction with thermal expansion in granular media: everything but the solver
 #[derive(Parser)]
@@ -48,7 +52,7 @@ struct Program {
 
 #[derive(Subcommand)]
 enum Command {
-    /// Make a new case for the solver, or check one before it runs.
+    /// Make a case for the solver, check it, choose its settings, show its results.
     #[command(subcommand)]
     Case(case::Command),
     /// Generate and export databases of packed and expanded RVEs.

@@ -152,20 +152,24 @@ pub fn chart(quick: bool) -> Vec<Configuration> {
 /// A run of a case by DEM on one thread, to `end` \[s\]. `step`: largest time step \[s\]; `None`: that of the
 /// stability bound.
 pub fn elements(case: &str, end: f64, step: Option<f64>, limit: u64) -> Job {
-    let mut arguments: Vec<String> = ["reference", "run", "--case", &format!("cases/{case}"), "--seed", "1"]
-        .iter()
-        .chain(&["--out", "WORK", "--threads", "1", "--end", &end.to_string()])
-        .map(|text| (*text).to_string())
-        .collect();
-    if let Some(step) = step {
-        arguments.extend(["--time-step".to_string(), step.to_string()]);
-    }
-    tool(arguments, &["cases/common"], limit)
+    let step = step.map_or(String::new(), |step| format!(" --time-step {step}"));
+    let run = format!("reference run --case cases/{case} --seed 1 --out WORK --threads 1 --end {end}{step}");
+    tool(&run, &["cases/common"], None, limit)
 }
 
-pub fn tool(arguments: Vec<String>, inputs: &[&str], limit: u64) -> Job {
-    let inputs = ENGINE.iter().chain(inputs).map(|text| (*text).to_string()).collect();
-    Job::Tool(ToolJob { arguments, inputs, output: None, limit })
+/// A run of `msdd` that depends on the DEM engine and on `inputs`.
+pub fn tool(arguments: &str, inputs: &[&str], output: Option<&str>, limit: u64) -> Job {
+    command(arguments, &[&ENGINE, inputs].concat(), output, limit)
+}
+
+/// A run of `msdd` that depends on `inputs` alone.
+pub fn command(arguments: &str, inputs: &[&str], output: Option<&str>, limit: u64) -> Job {
+    Job::Tool(ToolJob {
+        arguments: arguments.split_whitespace().map(str::to_string).collect(),
+        inputs: inputs.iter().map(|input| (*input).to_string()).collect(),
+        output: output.map(str::to_string),
+        limit,
+    })
 }
 
 #[cfg(test)]

@@ -123,8 +123,8 @@ fn pack(settings: &Settings) -> Result<(), ReportError> {
     {
         return Ok(());
     }
-    let arguments = ["reference", "pack", "--case", "cases/H", "--seed", "1"].map(str::to_string);
-    execute(&settings.place, &plan::tool(arguments.to_vec(), &[], 1800), "pack").map(drop)
+    let pack = plan::tool("reference pack --case cases/H --seed 1", &[], None, 1800);
+    execute(&settings.place, &pack, "pack").map(drop)
 }
 
 fn run_all(

@@ -20,7 +20,7 @@ pub enum Command {
     /// Make a new case: prompts for options that are not given, finds the initial packing, and writes a folder that is ready to
     /// run.
     ///
-    /// The bed is of discs in the plane, packed by DEM, or, with --spheres, of equal spheres with gas between them. These fill
+    /// The bed is of discs in the plane, packed by DEM, or, with --spheres, of spheres with gas between them. These fill
     /// a box, or an upright cylinder, which is computed as a wedge.
     ///
     /// The initial state of spheres follows from the law of spheres, for a bed that was poured and pressed from above: the
@@ -28,8 +28,8 @@ pub enum Command {
     /// of them point upwards (fabric 0.35 instead of 1/3). The law is valid for a friction of 0.3. There is gravity, and
     /// walls have the friction of a sphere, 0.3. All walls are rigid but a top that presses and a side that is a shell.
     ///
-    /// The bed begins at rest under its weight, of which rough walls carry a part (restStress). A wall has its temperature
-    /// where the mesh ends: the resistance between a wall and the first spheres is left out.
+    /// The bed begins at rest under its weight, of which rough walls carry a part (restStress). Walls that heat passes have the
+    /// resistance between wall and spheres, unless --wall-material none.
     New(Box<new::Arguments>),
     /// Check a case folder before the run: lists errors and warnings.
     Check(check::Arguments),

@@ -207,7 +207,8 @@ pub fn judge(all: &[Done], law: &Law, file: &Path) -> Result<(), CliError> {
 
 /// Prints the shares over the scenes of each kind.
 fn summary(file: &Path) -> Result<(), CliError> {
-    let requests = Request::read(file).map_err(|error| CliError::Message(error.to_string()))?;
+    let requests: Vec<Request> =
+        msdd_report::rows(file).map_err(|error| CliError::Message(error.to_string()))?;
     for tally in tallies(&requests) {
         let Tally { purpose, asked, kept, met, refused, possible, cost, highest_cost } = tally;
         let [median, most] = [cost, highest_cost].map(|cost| cost.unwrap_or(f64::NAN));

@@ -1,6 +1,7 @@
 //! Errors of the models when a strain is divided into many increments, by the number of increments.
 
-use crate::jobs::job::{Job, ToolJob};
+use crate::jobs::job::Job;
+use crate::plan;
 use serde::Serialize;
 use serde_json::Value;
 
@@ -16,17 +17,11 @@ pub struct Drift {
 const STRAINS: [f64; 3] = [0.02, -0.02, -0.05];
 /// Scores of the shipped models.
 pub fn score() -> Job {
-    let models = ["rust/surrogate/models/increment.json", "rust/surrogate/models/paper.json"];
+    let [first, second] = super::elements::MODELS;
     let database = "cases/database/full.csv.gz";
-    let arguments = ["score", "--model", models[0], "--model", models[1], "--database", database];
-    let arguments = [&arguments[..], &["--json", "WORK/score.json"]].concat();
-    let inputs = [models[0], models[1], database, "rust/surrogate/src", "rust/rve/src"];
-    Job::Tool(ToolJob {
-        arguments: arguments.iter().map(|text| (*text).to_string()).collect(),
-        inputs: inputs.map(str::to_string).to_vec(),
-        output: Some("score.json".to_string()),
-        limit: 600,
-    })
+    let run = format!("score --model {first} --model {second} --database {database} --json WORK/score.json");
+    let inputs = [first, second, database, "rust/surrogate/src", "rust/rve/src"];
+    plan::command(&run, &inputs, Some("score.json"), 600)
 }
 
 fn rows(model: &Value, strain: f64) -> Vec<[f64; 2]> {

@@ -1,6 +1,6 @@
 //! Limits of DEM.
 
-use crate::jobs::job::{Job, ToolJob};
+use crate::jobs::job::Job;
 use crate::plan;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -74,36 +74,20 @@ pub struct Answer {
     pub pressure: f64,
 }
 
+/// The shipped models of discs.
+pub const MODELS: [&str; 2] = ["rust/surrogate/models/increment.json", "rust/surrogate/models/paper.json"];
+
 pub fn stability(quick: bool) -> Job {
     let porosities = if quick { "0.09,0.12" } else { "0.06,0.07,0.08,0.09,0.1,0.12,0.14,0.17" };
-    plan::tool(
-        ["bench", "stability", "--porosity", porosities].map(str::to_string).to_vec(),
-        &["rust/cli/src/bench"],
-        300,
-    )
+    plan::tool(&format!("bench stability --porosity {porosities}"), &["rust/cli/src/bench"], None, 300)
 }
 
 pub fn limits(quick: bool) -> Job {
-    let models = ["rust/surrogate/models/increment.json", "rust/surrogate/models/paper.json"];
-    let packings = if quick { "1" } else { "8" };
-    let file = "WORK/limits.json";
-    let arguments = [
-        "bench",
-        "limits",
-        "--packings",
-        packings,
-        "--model",
-        models[0],
-        "--model",
-        models[1],
-        "--out",
-        file,
-    ];
-    let inputs = ["rust/cli/src/bench", "rust/surrogate/src", models[0], models[1]];
-    match plan::tool(arguments.map(str::to_string).to_vec(), &inputs, 600) {
-        Job::Tool(tool) => Job::Tool(ToolJob { output: Some("limits.json".to_string()), ..tool }),
-        other => other,
-    }
+    let [first, second] = MODELS;
+    let packings = if quick { 1 } else { 8 };
+    let run =
+        format!("bench limits --packings {packings} --model {first} --model {second} --out WORK/limits.json");
+    plan::tool(&run, &["rust/cli/src/bench", "rust/surrogate/src", first, second], Some("limits.json"), 600)
 }
 
 /// Reads lines such as "porosity 0.06  1.011e-3  1.051e-3  1.04  4.973e-4  4.934e-4  0.99".

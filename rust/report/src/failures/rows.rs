@@ -71,8 +71,8 @@ impl Edge {
             return super::cycles::job("equilibrium").into();
         }
         if !self.tool.is_empty() {
-            let arguments = self.tool.split_whitespace().map(str::to_string).collect();
-            return plan::tool(arguments, &self.inputs.iter().map(String::as_str).collect::<Vec<_>>(), 300);
+            let inputs: Vec<&str> = self.inputs.iter().map(String::as_str).collect();
+            return plan::tool(&self.tool, &inputs, None, 300);
         }
         let mut job = SolverJob::coarse(&self.case);
         job.uniform = self.porosity.map(|porosity| [porosity, 0.04]);

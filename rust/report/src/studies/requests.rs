@@ -26,14 +26,6 @@ pub struct Request {
 }
 
 impl Request {
-    /// Reads `requests.csv`.
-    ///
-    /// # Errors
-    /// [`ReportError::File`], [`ReportError::Read`].
-    pub fn read(file: &Path) -> Result<Vec<Self>, ReportError> {
-        rows(file)
-    }
-
     /// Processor time over that of the cheapest run that would have done.
     pub fn cost(&self) -> Option<f64> {
         Some(self.processor_seconds? / self.cheapest_processor_seconds?)

@@ -1,8 +1,9 @@
 //! Beds of spheres: error against cost of the solver compared with DEM, and beds that were measured.
 
 use crate::jobs::execute::Outcome;
-use crate::jobs::job::{Job, SpheresJob, ToolJob};
+use crate::jobs::job::{Job, SpheresJob};
 use crate::jobs::pool::{Asked, Records};
+use crate::plan;
 use crate::settings::Settings;
 use crate::{ReportError, parsed, rows};
 use msdd_beds::experiment::{self, Measured, Record, misfits};
@@ -20,7 +21,7 @@ const BED: &str = "cases/beaulieu";
 /// A run of the solver: cost, and how far it is from DEM or measurements.
 #[derive(Clone, Debug, Serialize)]
 pub struct SphereRun {
-    pub case: &'static str,
+    pub case: String,
     pub family: &'static str,
     pub name: String,
     pub core_seconds: Option<f64>,
@@ -64,90 +65,51 @@ struct Configuration {
     job: SpheresJob,
 }
 
-/// A case, and what is changed in it.
+/// A case, and what is changed in it, as `spheres.toml` describes it.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
 struct CaseVariant {
-    case: &'static str,
+    case: String,
     /// Arguments of `cases/common/compare-dem`.
-    compare: &'static [&'static str],
-    /// Cells of the blocks of its mesh, and the directions in which they are changed.
-    blocks: &'static [[usize; 3]],
-    changed: [bool; 3],
+    compare: Vec<String>,
+    /// Cells of the blocks of its mesh, and the direction in which they are changed.
+    blocks: Vec<[usize; 3]>,
+    along: usize,
     /// How it steps in time.
-    steps: &'static str,
+    steps: String,
     /// Other ways: text that is added to `system/controlDict` and to `system/fvSolution`.
-    others: &'static [[&'static str; 3]],
+    others: Vec<[String; 3]>,
     moves: bool,
 }
 
-const ADAPTIVE: &str = "steps that err by 0.05 K, second order";
-const FINE: &str = "steps that err by 0.0125 K, second order";
-const FINE_KEYS: &str = "msddFoam { temperatureTolerance 0.0125; }";
-const FIRST: &str = "msddFoam { timeScheme paper; }";
-
-const SCENES: [CaseVariant; 3] = [
-    CaseVariant {
-        case: "column",
-        compare: &["lid", "zz", "xx", "yy", "zz"],
-        blocks: &[[1, 1, 6], [1, 1, 28]],
-        changed: [false, false, true],
-        steps: ADAPTIVE,
-        others: &[
-            [FINE, "", FINE_KEYS],
-            ["steps of 100 s, first order", "deltaT 100; adjustTimeStep no;", FIRST],
-            ["steps of 300 s, first order", "adjustTimeStep no;", FIRST],
-            ["steps of 1200 s, first order", "deltaT 1200; adjustTimeStep no;", FIRST],
-        ],
-        moves: true,
-    },
-    CaseVariant {
-        case: "store",
-        compare: &["side", "yy", "yy", "zz", "xx", "0.975"],
-        blocks: &[[1, 12, 1], [1, 3, 1]],
-        changed: [false, true, false],
-        steps: ADAPTIVE,
-        others: &[
-            [FINE, "", FINE_KEYS],
-            ["steps of 450 s, first order", "deltaT 450; adjustTimeStep no;", FIRST],
-            ["steps of 1350 s, first order", "adjustTimeStep no;", FIRST],
-            ["steps of 5400 s, first order", "deltaT 5400; adjustTimeStep no;", FIRST],
-        ],
-        moves: true,
-    },
-    CaseVariant {
-        case: MEASURED,
-        compare: &[],
-        blocks: &[[2, 2, 100]],
-        changed: [false, false, true],
-        steps: "steps of 10 s, first order",
-        others: &[
-            ["steps of 2.5 s, first order", "deltaT 2.5;", ""],
-            ["steps of 100 s, first order", "deltaT 100;", ""],
-        ],
-        moves: false,
-    },
-];
+/// The cases of `spheres.toml`; a test reads them.
+fn variants() -> Vec<CaseVariant> {
+    let mut all: BTreeMap<String, Vec<CaseVariant>> =
+        toml::from_str(include_str!("spheres.toml")).unwrap_or_default();
+    all.remove("variant").unwrap_or_default()
+}
 
 /// Numbers of cells along each changed direction over those of the shipped case.
 const CELLS: [f64; 3] = [0.25, 0.5, 2.0];
 
 fn configurations(scene: &CaseVariant, quick: bool) -> Vec<Configuration> {
     let shipped = SpheresJob {
-        case: scene.case.to_string(),
+        case: scene.case.clone(),
         mesh: Vec::new(),
         append: BTreeMap::new(),
-        compare: scene.compare.iter().map(|word| word.to_string()).collect(),
+        compare: scene.compare.clone(),
         limit: 600,
     };
     let add = |texts: &[(&str, &str)]| {
         let append = texts.iter().map(|(file, text)| (file.to_string(), format!("{text}\n")));
         SpheresJob { append: append.collect(), ..shipped.clone() }
     };
-    let name = scene.steps.to_string();
+    let name = scene.steps.clone();
     let mut list = vec![Configuration { family: FAMILIES[0], name, job: shipped.clone() }];
     let block = |[x, y, z]: [usize; 3]| format!("({x} {y} {z}) simpleGrading");
     for factor in CELLS {
         let along = |k: usize, cells: usize| {
-            if scene.changed[k] { (cells as f64 * factor).round().max(1.0) as usize } else { cells }
+            if scene.along == k { (cells as f64 * factor).round().max(1.0) as usize } else { cells }
         };
         let mesh = scene
             .blocks
@@ -160,8 +122,8 @@ fn configurations(scene: &CaseVariant, quick: bool) -> Vec<Configuration> {
             job,
         });
     }
-    for [name, control, solution] in scene.others {
-        let job = add(&[("system/controlDict", control), ("system/fvSolution", solution)]);
+    for [name, control, solution] in &scene.others {
+        let job = add(&[("system/controlDict", control.as_str()), ("system/fvSolution", solution.as_str())]);
         list.push(Configuration { family: FAMILIES[2], name: name.to_string(), job });
     }
     if scene.moves {
@@ -176,20 +138,15 @@ fn configurations(scene: &CaseVariant, quick: bool) -> Vec<Configuration> {
 
 /// The bed of [`MEASURED`] by DEM.
 fn bed() -> Job {
-    Job::Tool(ToolJob {
-        arguments: ["bed", "run", BED, "--threads", "1", "--out", "WORK/bed"].map(str::to_string).to_vec(),
-        inputs: [BED, "rust/beds/src", "rust/spheres/src", "rust/engine/src", "Cargo.lock"]
-            .map(str::to_string)
-            .to_vec(),
-        output: Some("bed/comparison.csv".to_string()),
-        limit: 900,
-    })
+    let inputs = [BED, "rust/beds/src", "rust/spheres/src", "rust/engine/src", "Cargo.lock"];
+    let run = format!("bed run {BED} --threads 1 --out WORK/bed");
+    plan::command(&run, &inputs, Some("bed/comparison.csv"), 900)
 }
 
 /// Jobs whose cost is shown.
 pub fn jobs(quick: bool) -> Vec<Asked> {
     let of = |scene| configurations(scene, quick).into_iter();
-    let solver = SCENES.iter().flat_map(of);
+    let solver = variants().iter().flat_map(of).collect::<Vec<_>>().into_iter();
     let solver = solver.map(|one| Asked { job: Job::Spheres(one.job), guess: 3.0 });
     let bed = (!quick).then(|| Asked { job: bed(), guess: 70.0 });
     solver.chain(bed).collect()
@@ -202,7 +159,8 @@ pub fn jobs(quick: bool) -> Vec<Asked> {
 pub fn read(settings: &Settings, records: &Records) -> Result<Spheres, ReportError> {
     let checkout = &settings.place.checkout;
     let file = checkout.join(EXPERIMENT);
-    let measured = experiment::read(&file).map_err(|error| unread(&file, &error.to_string()))?;
+    let measured =
+        experiment::read(&file).map_err(|error| ReportError::Read { file, problem: error.to_string() })?;
     let mut spheres = Spheres {
         runs: Vec::new(),
         elements: BTreeMap::new(),
@@ -211,7 +169,7 @@ pub fn read(settings: &Settings, records: &Records) -> Result<Spheres, ReportErr
         measured,
         simulated: Vec::new(),
     };
-    for scene in &SCENES {
+    for scene in &variants() {
         for Configuration { family, name, job } in configurations(scene, settings.quick) {
             let Some(record) = settings.record(records, &Job::Spheres(job.clone())) else { continue };
             let done = record.outcome == Outcome::Done;
@@ -226,7 +184,7 @@ pub fn read(settings: &Settings, records: &Records) -> Result<Spheres, ReportErr
                 }
             }
             spheres.runs.push(SphereRun {
-                case: scene.case,
+                case: scene.case.clone(),
                 family,
                 name,
                 core_seconds: done.then_some(record.cpu_seconds),
@@ -241,10 +199,6 @@ pub fn read(settings: &Settings, records: &Records) -> Result<Spheres, ReportErr
         spheres.elements_core_seconds = Some(record.cpu_seconds);
     }
     Ok(spheres)
-}
-
-fn unread(file: &Path, problem: &str) -> ReportError {
-    ReportError::Read { file: file.to_path_buf(), problem: problem.to_string() }
 }
 
 /// Root mean square and worst difference by quantity in the table of `compare-dem`, whose columns are as wide as its head says.
@@ -304,7 +258,9 @@ mod tests {
     #[test]
     fn every_configuration_can_be_written() {
         let folder = std::env::temp_dir().join(format!("msdd-report-spheres-{}", std::process::id()));
-        for scene in &SCENES {
+        let variants = variants();
+        assert_eq!(variants.len(), 3);
+        for scene in &variants {
             let all = configurations(scene, false);
             assert!(
                 all.iter().map(|one| &one.name).collect::<std::collections::BTreeSet<_>>().len() == all.len()
@@ -319,7 +275,7 @@ mod tests {
                 }
             }
         }
-        let mut job = configurations(&SCENES[0], true)[0].job.clone();
+        let mut job = configurations(&variants[0], true)[0].job.clone();
         job.mesh = vec![("(9 9 9)".to_string(), "(1 1 1)".to_string())];
         let error = write_case(&checkout(), &job, &folder).unwrap_err().to_string();
         assert!(error.contains("blockMeshDict") && error.contains("no '(9 9 9)' in it"), "{error}");
