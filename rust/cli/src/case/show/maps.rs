@@ -103,7 +103,7 @@ fn cells(run: &Run, drawn: &[bool]) -> (Cells, Vec<(usize, usize)>) {
 
 /// Maps of all quantities that were written: names of the fields and their figures. `times`: numbers of the times.
 pub fn all(run: &Run, times: &[usize], shades: usize) -> Result<Vec<(&'static str, String)>, CliError> {
-    each(run, times, shades, |sheet, list| msdd_draw::maps(sheet, list))
+    each(run, times, shades, msdd_draw::maps)
 }
 
 /// The same with a figure for each time, all with the colours of the first to the last.
