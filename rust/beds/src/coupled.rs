@@ -10,12 +10,13 @@
 //! walls wait while more than 2 % of the load is out of balance, and an interval ends when less than 0.1 % is. A bed that lags lets
 //! contacts slide that would not slide at rest. Where 400 times the steps are not enough, the rest of the motion is hurried, and after
 //! 100 times the steps of the rest the interval ends as it is; the summary then warns and says how many intervals that were. A heated
-//! wall holds all spheres whose centre is within a diameter of it at its temperature; other walls are insulated.
+//! wall holds all spheres whose centre is within a diameter of it at its temperature, or passes heat to them as its key `resists` says;
+//! other walls are insulated.
 //!
 //! The motion is not the motion in real time: it shows how a bed at rest changes, and how far from rest it is is recorded.
 
 use crate::BedError;
-use crate::case::BedCase;
+use crate::case::{BedCase, Heated};
 use crate::exchange::Exchange;
 use crate::harden::harden;
 use crate::network::{Materials, Network, Plate, PlateLaw};
@@ -85,7 +86,8 @@ pub struct Row {
     pub strain: [f64; 3],
     /// In the region.
     pub porosity: f64,
-    /// Between its heights, from its radius to where the centres of the first layer beside the side are; NaN in a box.
+    /// Between its heights, from its radius to where the centres of the first layer beside the side are, or to the side if that resists;
+    /// NaN in a box.
     pub porosity_outside: f64,
     pub coordination: f64,
     /// The fabric in the region, see [`Region::fabric`], and how much of the friction is mobilised there, see [`crate::mobilised`] \[-\].
@@ -480,7 +482,8 @@ impl<'a> Coupled<'a> {
         let radius = (scene.container.radius)
             .map(|radius| radius - self.shell.as_ref().map_or(0.0, |shell| shell.moved));
         let outside = keys.radius.zip(radius).map(|(inner, radius)| {
-            let ring = Width::Ring([inner, radius - 0.5 * scene.grains.diameter]);
+            let rim = if scene.resists("side") { 0.0 } else { 0.5 * scene.grains.diameter };
+            let ring = Width::Ring([inner, radius - rim]);
             1.0 - solid_fraction(simulation, &floor, keys.heights, ring)
         });
         let (peak, overlap) = (self.peak(), self.overlap());
@@ -580,7 +583,17 @@ fn network(scene: &BedCase, (simulation, exchange): (&Simulation, Option<&Exchan
         )),
     };
     let walls: Vec<usize> = heated_walls(scene).collect();
-    let plates: Vec<Plate> = walls.iter().map(|&wall| Plate { wall, law: PlateLaw::Held }).collect();
+    // Of the material of the spheres, and polished: the asperities are theirs.
+    let law = |heated: &Heated| match heated.resists {
+        false => PlateLaw::Held,
+        true => PlateLaw::Resisting {
+            conductivity: None,
+            effective_modulus: materials.effective_modulus,
+            roughness: materials.roughness,
+        },
+    };
+    let plates: Vec<Plate> =
+        walls.iter().zip(&scene.heated).map(|(&wall, heated)| Plate { wall, law: law(heated) }).collect();
     let mut network = Network::new(simulation, materials, &plates);
     network.source = scene.heat_source.unwrap_or(0.0);
     match exchange {

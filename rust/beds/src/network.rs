@@ -10,7 +10,7 @@ use crate::property::Property;
 use crate::radiation::STEFAN_BOLTZMANN;
 use crate::radiation::{Dark, black, factor};
 use crate::solid::{Roughness, Solid};
-use msdd_spheres::{Partner, Simulation};
+use msdd_spheres::{Partner, Simulation, Surface};
 
 /// What the bed is made of, as far as heat is concerned.
 #[derive(Clone, Debug, PartialEq)]
@@ -31,7 +31,7 @@ pub struct Materials {
     pub solid_fraction: Option<f64>,
 }
 
-/// A flat wall of given temperature.
+/// A wall of given temperature.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Plate {
     /// By the number of the wall.
@@ -167,10 +167,15 @@ impl Network {
                 }
                 PlateLaw::Resisting { conductivity, effective_modulus, roughness } => {
                     let pair = Solid { conductivity: 1.0, effective_modulus, roughness };
+                    // Of the sphere and the wall: 1 over it is the root of the product of both curvatures' sums.
+                    let round = |radius: f64| match simulation.boundary.walls()[plate.wall].surface {
+                        Surface::Flat { .. } => radius,
+                        Surface::Cylinder { radius: side, .. } => radius / (1.0 - radius / side).sqrt(),
+                    };
                     network.beside.extend(facing(simulation, plate.wall).into_iter().map(|facing| {
                         let force = at_walls.get(&(plate.wall, facing.sphere)).copied().unwrap_or_default();
                         let radius = simulation.spheres[facing.sphere].radius;
-                        let size = pair.contact_size(force, radius);
+                        let size = pair.contact_size(force, round(radius));
                         Beside { plate: number, size, conductivity, radius, facing }
                     }));
                 }

@@ -1,4 +1,4 @@
-//! Which part of a flat plate belongs to which sphere of a bed, and how far heat goes from there through the gas.
+//! Which part of a plate, flat or the side of a cylinder, belongs to which sphere of a bed, and how far heat goes from there through the gas.
 //!
 //! Each point of the plate belongs to one sphere, the one of which it has the least power ρ² + D² − R² (of equal spheres, the nearest):
 //! ρ is how far the point is from the foot of the centre, D how far the centre is from the plate. So the spheres share the plate without
@@ -9,7 +9,8 @@
 //!
 //! l = (ρ² + D² − R²)/ρ · arctan(ρ/(D + R)),
 //!
-//! which is the gap D − R at ρ = 0, as straight lines have it. The heat per area and kelvin is k_g/(l + e), with the distance e that
+//! which is the gap D − R at ρ = 0, as straight lines have it. At the side of a cylinder ρ and D are those of the plane that touches it
+//! at the point, with which the arc is the same. The heat per area and kelvin is k_g/(l + e), with the distance e that
 //! jumps and spreading in the solid add ([`crate::gas`]). No number is fitted. In beds whose spheres all have one temperature, the heat
 //! through a plate is 2 to 6 % more by this law than by direct solutions (`examples/plates.rs`).
 
@@ -17,9 +18,10 @@ use msdd_spheres::space::{dot, length, minus, plus, scaled};
 use msdd_spheres::{Simulation, Sphere, Surface, Wall};
 use std::f64::consts::PI;
 
-/// Rings around the foot of a sphere, and the radius of the last one over the sphere's: no point of the plate is farther from the
+/// Rings around the foot of a sphere, sectors of each at the side of a cylinder, and the radius of the last one over the sphere's: no point of the plate is farther from the
 /// foot of its sphere in a bed.
 const RINGS: usize = 64;
+const SECTORS: usize = 32;
 const REACH: f64 = 4.0;
 /// Spheres so many radii farther than the nearest one are behind others.
 const DEPTH: f64 = 8.0;
@@ -81,11 +83,14 @@ struct Seen {
     power: f64,
 }
 
-/// Spheres with a part of a flat wall. None of a cylinder.
+/// Spheres with a part of a wall, in order of their numbers.
 pub fn facing(simulation: &Simulation, wall: usize) -> Vec<Facing> {
     let walls = simulation.boundary.walls();
     let plate = walls[wall];
-    let Surface::Flat { normal } = plate.surface else { return Vec::new() };
+    let normal = match plate.surface {
+        Surface::Flat { normal } => normal,
+        Surface::Cylinder { axis, radius, .. } => return around(simulation, &plate, (axis, radius)),
+    };
     let axes = axes(normal);
     let seen = seen(simulation, &plate, axes);
     let cuts: Vec<Cut> = (walls.iter().enumerate())
@@ -97,17 +102,105 @@ pub fn facing(simulation: &Simulation, wall: usize) -> Vec<Facing> {
     all
 }
 
+/// Spheres with a part of the side of a cylinder of this axis and radius, between the other walls. No images: a cell beside a cylinder
+/// does not repeat itself.
+fn around(simulation: &Simulation, side: &Wall, (axis, radius): ([f64; 3], f64)) -> Vec<Facing> {
+    let spheres = &simulation.spheres;
+    let largest = spheres.iter().fold(0.0f64, |largest, s| largest.max(s.radius));
+    let gap = |s: &Sphere| side.distance(s.position) - s.radius;
+    let deepest = spheres.iter().map(gap).fold(f64::INFINITY, f64::min).max(0.0) + DEPTH * largest;
+    let height = |k: usize| dot(minus(spheres[k].position, side.point), axis);
+    let mut near: Vec<usize> = (0..spheres.len()).filter(|&k| gap(&spheres[k]) < deepest).collect();
+    near.sort_by(|&a, &b| height(a).total_cmp(&height(b)).then(a.cmp(&b)));
+    let ends: Vec<Wall> = simulation
+        .boundary
+        .walls()
+        .iter()
+        .filter(|w| matches!(w.surface, Surface::Flat { .. }))
+        .copied()
+        .collect();
+    let mut all = Vec::new();
+    for (place, &k) in near.iter().enumerate() {
+        let me = &spheres[k];
+        let reach = REACH * me.radius;
+        let close = |other: &&usize| (height(**other) - height(k)).abs() < 2.0 * reach;
+        let others: Vec<&Sphere> = (near[..place].iter().rev().take_while(close))
+            .chain(near[place + 1..].iter().take_while(close))
+            .map(|&other| &spheres[other])
+            .filter(|other| length(minus(other.position, me.position)) < 2.0 * reach)
+            .collect();
+        let from = minus(me.position, side.point);
+        let foot = dot(from, axis);
+        let out = plus(from, -foot, axis);
+        let off = length(out);
+        // A sphere on the axis has no foot, and none of the side if others are there.
+        if off < 1e-9 * radius {
+            continue;
+        }
+        let out = scaled(1.0 / off, out);
+        let across = cross(axis, out);
+        // Distances along the side, along the axis and around it, from the foot.
+        let point = |along: f64, around: f64| {
+            let (sine, cosine) = (libm::sin(around / radius), libm::cos(around / radius));
+            let outward: [f64; 3] = std::array::from_fn(|i| cosine * out[i] + sine * across[i]);
+            (plus(plus(side.point, foot + along, axis), radius, outward), outward)
+        };
+        let power = |s: &Sphere, at: [f64; 3]| {
+            let to = minus(s.position, at);
+            dot(to, to) - s.radius * s.radius
+        };
+        let arc_from = |(at, outward): ([f64; 3], [f64; 3])| {
+            let to = minus(me.position, at);
+            let distance = -dot(to, outward);
+            arc((dot(to, to) - distance * distance).max(0.0).sqrt(), distance, me.radius)
+        };
+        let mut rings = Vec::new();
+        for ring in 0..RINGS {
+            let edges = [ring, ring + 1].map(|edge| edge as f64 * reach / RINGS as f64);
+            let middle = 0.5 * (edges[0] + edges[1]);
+            let (mut own, mut sums) = (0, [0.0; 2]);
+            for sector in 0..SECTORS {
+                let angle = 2.0 * PI * (sector as f64 + 0.5) / SECTORS as f64;
+                let (sine, cosine) = (libm::sin(angle), libm::cos(angle));
+                let (at, _) = point(middle * cosine, middle * sine);
+                let mine = power(me, at);
+                if ends.iter().all(|end| end.distance(at) > 0.0) && others.iter().all(|s| power(s, at) > mine)
+                {
+                    own += 1;
+                    for (sum, edge) in sums.iter_mut().zip(edges) {
+                        *sum += arc_from(point(edge * cosine, edge * sine));
+                    }
+                }
+            }
+            if own > 0 {
+                let share = f64::from(own) / SECTORS as f64;
+                let area = share * PI * (edges[1] * edges[1] - edges[0] * edges[0]);
+                rings.push(Ring { area, lengths: sums.map(|sum| sum / f64::from(own)) });
+            }
+        }
+        if !rings.is_empty() {
+            all.push(Facing { sphere: k, gap: gap(me).max(0.0), rings });
+        }
+    }
+    all.sort_by_key(|facing| facing.sphere);
+    all
+}
+
+/// The vector product.
+fn cross(u: [f64; 3], v: [f64; 3]) -> [f64; 3] {
+    std::array::from_fn(|k| {
+        let (a, b) = ((k + 1) % 3, (k + 2) % 3);
+        u[a] * v[b] - u[b] * v[a]
+    })
+}
+
 /// Two unit vectors along a plane.
 fn axes(normal: [f64; 3]) -> [[f64; 3]; 2] {
     let least = if normal[0].abs() < 0.6 { 0 } else { 1 };
     let other: [f64; 3] = std::array::from_fn(|k| f64::from(u8::from(k == least)));
     let along = plus(other, -dot(other, normal), normal);
     let first = scaled(1.0 / length(along), along);
-    let second = std::array::from_fn(|k| {
-        let (a, b) = ((k + 1) % 3, (k + 2) % 3);
-        normal[a] * first[b] - normal[b] * first[a]
-    });
-    [first, second]
+    [first, cross(normal, first)]
 }
 
 /// The spheres near the plate and their images, by the first coordinate of their feet.
@@ -287,6 +380,30 @@ mod tests {
         let side = Wall::cylinder([0.0; 3], [0.0, 0.0, 1.0], 2.5);
         let column = bed(&round, Boundary::Walls(vec![side, floor]));
         assert!((total(&column, 1) / (PI * 6.25) - 1.0).abs() < 5e-3, "{}", total(&column, 1));
+    }
+
+    /// The side of a cylinder is shared, too; a wide one is a flat wall, and a narrow one is nearer to a sphere that touches it.
+    #[test]
+    fn the_side_of_a_cylinder_is_shared_and_flat_where_it_is_wide() {
+        let side = |radius| Wall::cylinder([0.0; 3], [0.0, 0.0, 1.0], radius);
+        let ends =
+            [Wall::at_rest([0.0; 3], [0.0, 0.0, 1.0]), Wall::at_rest([0.0, 0.0, 6.0], [0.0, 0.0, -1.0])];
+        let bed = |spheres: &[([f64; 3], f64)], wall: Wall| {
+            bed(spheres, Boundary::Walls(vec![wall, ends[0], ends[1]]))
+        };
+        let centres = scatter(&mut Random::new(4), &[0.5; 90], [5.0, 5.0, 6.0]).expect("room");
+        let round: Vec<_> = centres.into_iter().map(|([x, y, z], r)| ([x - 2.5, y - 2.5, z], r)).collect();
+        let inside = |c: &[f64; 3]| c[0].hypot(c[1]) < 2.0 && c[2] > 0.5 && c[2] < 5.5;
+        let round: Vec<_> = round.into_iter().filter(|(c, _)| inside(c)).collect();
+        let area: f64 = facing(&bed(&round, side(2.5)), 0).iter().map(Facing::area).sum();
+        assert!((area / (PI * 30.0) - 1.0).abs() < 0.01, "{area}");
+        let pair = |x: f64| [([x, 0.0, 2.5], 0.5), ([x, 0.0, 3.5], 0.5)];
+        let flat = bed(&pair(0.5), Wall::at_rest([0.0; 3], [1.0, 0.0, 0.0]));
+        let size = |simulation: &Simulation| facing(simulation, 0)[0].size(1e-3);
+        let wide = size(&bed(&pair(499.5), side(500.0)));
+        assert!((wide / size(&flat) - 1.0).abs() < 0.02, "{wide} {}", size(&flat));
+        let narrow = size(&bed(&pair(2.0), side(2.5)));
+        assert!(narrow > 1.05 * wide, "{narrow} {wide}");
     }
 
     /// A sphere behind another one has no part; one beside it shares the plate evenly.

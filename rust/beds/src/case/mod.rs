@@ -296,6 +296,11 @@ impl BedCase {
         self.wall_names().iter().position(|known| *known == name)
     }
 
+    /// Whether a wall is heated through a resistance.
+    pub fn resists(&self, wall: &str) -> bool {
+        self.heated.iter().any(|heated| heated.resists && heated.wall == wall)
+    }
+
     /// Temperatures \[K\] between which everything stays.
     pub fn temperatures(&self) -> [f64; 2] {
         let start = self.time.initial_temperature;

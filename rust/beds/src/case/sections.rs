@@ -65,6 +65,11 @@ pub struct Heated {
     /// Heat flux into the bed, for the solver alone [W/m²]. Default: none.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub flux: Option<f64>,
+    /// Whether heat passes through the contacts and the gas between the wall and each sphere; the surface of the wall has one temperature,
+    /// and the stiffness and asperities of the spheres. Allowed: `true`, `false`: spheres whose centre is within a diameter of the wall
+    /// have its temperature.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub resists: bool,
 }
 
 impl Heated {

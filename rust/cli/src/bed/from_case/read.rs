@@ -186,7 +186,7 @@ impl<'a> Reader<'a> {
             young_modulus,
             poisson_ratio: Self::number(spheres, "poissonRatio", 0.3)?,
             simulated_young_modulus: f64::NAN,
-            friction: FRICTION,
+            friction: Self::number(spheres, "friction", FRICTION)?,
             wall_friction: 0.0,
             restitution: RESTITUTION,
             conductivity: over_temperature(of, "thermalConductivity")?,
