@@ -55,7 +55,7 @@ pub fn tracks(root: &Path, first: i64, material: &mut SeenValues) -> Result<(Vec
                 seeds.len() - 1
             });
             let text = read_text(&file)?;
-            check_conduction(&folder, &scene)?;
+            check_spheres(&folder, &scene)?;
             all.push(track(&folder, &scene, &file, &text, first + known as i64)?);
             texts += &text;
         }
@@ -69,9 +69,12 @@ pub fn tracks(root: &Path, first: i64, material: &mut SeenValues) -> Result<(Vec
     }
 }
 
-/// Refuses beds whose spheres conduct in another way than those of the training.
-fn check_conduction(folder: &Path, scene: &BedCase) -> Result<(), CliError> {
+/// Refuses beds whose spheres are unequal, or conduct in another way than those of the training.
+fn check_spheres(folder: &Path, scene: &BedCase) -> Result<(), CliError> {
     let refuse = |text: &str| Err(CliError::Message(format!("{}: {text}", file_in(folder).display())));
+    if scene.grains.sizes.is_some() {
+        return refuse("spheres of unequal size, allowed for a training: equal ones");
+    }
     if scene.grains.roughness.is_some() {
         return refuse("spheres that are rough, allowed for a training: no roughness");
     }

@@ -6,7 +6,7 @@ mod tracks;
 
 use crate::error::CliError;
 use msdd_files::{check_writable, read_text, write};
-use msdd_rve::database::read_spheres;
+use msdd_rve::database::{SpherePlan, read_spheres};
 use msdd_surrogate::document::hash;
 use msdd_surrogate::spheres::errors::Errors;
 use msdd_surrogate::spheres::model::SphereModel;
@@ -37,6 +37,15 @@ fn read(files: &[PathBuf]) -> Result<(Vec<Track>, DatabaseProvenance), CliError>
             continue;
         }
         let mut dataset = read_spheres(file)?;
+        let plan = dataset.provenance.get("plan").map_or("", String::as_str);
+        if SpherePlan::parse(plan, "plan")
+            .is_ok_and(|plan| plan.spheres.iter().any(|block| block.sizes.is_some()))
+        {
+            return Err(CliError::Message(format!(
+                "{}: sizes: boxes of unequal spheres, allowed: of equal ones, for which the law is",
+                file.display()
+            )));
+        }
         dataset.records.iter_mut().for_each(|record| record.packing += next);
         next = dataset.records.iter().map(|record| record.packing + 1).max().unwrap_or(next);
         all.extend(tracks::tracks(&dataset.records));
