@@ -1,13 +1,17 @@
 //! Packs periodic boxes with several frictions and prints a table: `packings SPHERES SEEDS`. C is the conductivity of the
 //! contacts over k_s (p/E*)^(1/3); the last three columns are that of the gas over k_g where ln(R/h) of touching spheres is
 //! 8.5, 6 and 3.5. A second table has boxes that were shaken after that ([`shake`]), and beds that were poured, three diameters away from
-//! floor and surface; it is left out by `packings --pressed SPHERES SEEDS`. `packings --dump FILE FRICTION SEED` prints the row of a box
-//! that LAMMPS has packed (scripts/compare-packings).
+//! floor and surface; it is left out by `packings --pressed SPHERES SEEDS [WIDTH]`. `packings --dump FILE FRICTION SEED` prints the row of a
+//! box that LAMMPS has packed (scripts/compare-packings). With a WIDTH w above 0 diameters are uniform between 1 - w and 1 + w over their
+//! Sauter mean, friction is 0.3, and two more columns have the mean stress after the edges have closed by 0.2 %, and the stress along z
+//! after that edge has closed by 0.25 % more, both over E.
 
+use msdd_beds::averages::stress;
 use msdd_beds::conductances::{Link, contact_links, gas_links};
 use msdd_beds::conductivity::{conductivity, mean};
 use msdd_beds::pour::{Container, Pouring, pour};
 use msdd_beds::profile::{Width, solid_fraction};
+use msdd_beds::sizes::Sizes;
 use msdd_beds::solid::Solid;
 use msdd_beds::{Packing, averages, pack, shake};
 use msdd_spheres::law::effective_modulus;
@@ -31,20 +35,23 @@ fn main() -> Result<(), Box<dyn Error>> {
     let numbers = &arguments[usize::from(pressed_only)..];
     let number = |k: usize, default: u64| numbers.get(k).map_or(Ok(default), |text| text.parse());
     let (spheres, seeds) = (number(0, 1000)? as usize, number(1, 1)?);
+    let width: f64 = numbers.get(2).map_or(Ok(0.0), |text| text.parse())?;
+    if width > 0.0 {
+        println!("{COLUMNS} p(closed) p_zz(pressed)");
+        for seed in 1..=seeds {
+            let sizes = Some(Sizes::Uniform([1.0 - width, 1.0 + width]));
+            let mut packed = pack(&Packing { sizes, ..packing(spheres, seed, 0.3) })?.simulation;
+            let row = row(&packed);
+            let [closed, along] = strained(&mut packed)?;
+            println!("0.3 {seed} {row} {closed:.4e} {along:.4e}");
+        }
+        return Ok(());
+    }
     println!("{COLUMNS} settled steps searches candidates/contact seconds Msteps/s");
     for friction in [0.0, 0.1, 0.3, 0.5] {
         for seed in 1..=seeds {
-            let packing = Packing {
-                spheres,
-                seed,
-                diameter: 1.0,
-                sizes: None,
-                material: material(friction),
-                pressure: 1e-5,
-                steps: 400_000,
-            };
             let begin = Instant::now();
-            let packed = pack(&packing)?;
+            let packed = pack(&packing(spheres, seed, friction))?;
             let seconds = begin.elapsed().as_secs_f64();
             let (a, s) = (&packed.averages, &packed.simulation);
             println!(
@@ -67,6 +74,30 @@ fn main() -> Result<(), Box<dyn Error>> {
         poured(spheres, seed)?;
     }
     Ok(())
+}
+
+fn packing(spheres: usize, seed: u64, friction: f64) -> Packing {
+    let material = material(friction);
+    Packing { spheres, seed, diameter: 1.0, sizes: None, material, pressure: 1e-5, steps: 400_000 }
+}
+
+/// Closes a box at the rate of tests/lammps/in.packing.
+fn strained(simulation: &mut Simulation) -> Result<[f64; 2], Box<dyn Error>> {
+    simulation.drag = 0.0076;
+    let mut close = |strains: [f64; 3]| -> Result<[[f64; 3]; 3], Box<dyn Error>> {
+        for (time, share) in [(6000.0, 1.0), (2000.0, 0.0)] {
+            let [x, y, z] = strains.map(|strain| -share * strain / time);
+            simulation.set_velocity_gradient([[x, 0.0, 0.0], [0.0, y, 0.0], [0.0, 0.0, z]]);
+            let until = simulation.time + time;
+            while simulation.time < until {
+                simulation.run(50)?;
+            }
+        }
+        Ok(stress(simulation))
+    };
+    let closed = close([0.002; 3])?;
+    let pressed = close([0.0, 0.0, 0.0025])?;
+    Ok([(closed[0][0] + closed[1][1] + closed[2][2]) / 3.0, pressed[2][2]])
 }
 
 const COLUMNS: &str = "friction seed phi z z* rattlers p overlap C kappa_g(8.5) kappa_g(6) kappa_g(3.5)";
@@ -98,7 +129,7 @@ fn row(simulation: &Simulation) -> String {
     )
 }
 
-/// A cubic periodic box of spheres of the diameter 1 that LAMMPS has written: number and centre of each in a line.
+/// A cubic periodic box of spheres that LAMMPS has written: number, centre and diameter of each in a line.
 fn dumped(file: &str, friction: f64) -> Result<Simulation, Box<dyn Error>> {
     let text = std::fs::read_to_string(file)?;
     let numbers = |line: &str| -> Result<Vec<f64>, std::num::ParseFloatError> {
@@ -112,9 +143,10 @@ fn dumped(file: &str, friction: f64) -> Result<Simulation, Box<dyn Error>> {
     }
     let mut spheres = Vec::new();
     for line in atoms {
-        let row: [f64; 4] = numbers(line)?.try_into().map_err(|_| "number and centre of each sphere")?;
+        let row: [f64; 5] =
+            numbers(line)?.try_into().map_err(|_| "number, centre and diameter of each sphere")?;
         let centre = std::array::from_fn(|k| row[k + 1] - edges[k][0]);
-        spheres.push(Sphere::at_rest(centre, 0.5, 1.0));
+        spheres.push(Sphere::at_rest(centre, 0.5 * row[4], 1.0));
     }
     let cell = Cell::block(edges.map(|[low, high]| high - low));
     Ok(Simulation::new(material(friction), spheres, Boundary::Periodic(cell))?)
@@ -127,9 +159,7 @@ fn material(friction: f64) -> Material {
 
 /// Packed with a friction, opened by 0.5 %, mixed, and pressed again with a friction of 0.3.
 fn shaken(spheres: usize, seed: u64, friction: f64) -> Result<(), Box<dyn Error>> {
-    let material = material(friction);
-    let mut packing =
-        Packing { spheres, seed, diameter: 1.0, sizes: None, material, pressure: 1e-6, steps: 400_000 };
+    let mut packing = Packing { pressure: 1e-6, ..self::packing(spheres, seed, friction) };
     let mut simulation = pack(&packing)?.simulation;
     (packing.material, packing.pressure) = (self::material(0.3), SHAKEN);
     shake(&mut simulation, &packing, [1.0; 3], 0.005)?;
