@@ -179,6 +179,12 @@ bool Foam::granularMechanicsModels::equilibrium::advance(const label parts)
     for (label part = 1; part <= parts; ++part)
     {
         share_ = scalar(part)/parts;
+        // Spheres alone: not compared with discs
+        if (walls_.rubbing() > 0 && law_->keepsAcceleration())
+        {
+            law_->present();
+            walls_.keepLimits(law_->stress(), at(nodeField(u_.size(), Zero), 1));
+        }
         const nodeField done(walls_.alongWalls(nodeField(u_ - u)));
         const nodeField target(share_*way - done + give_ - given);
         nodeField du(target), give(du.size(), Zero);

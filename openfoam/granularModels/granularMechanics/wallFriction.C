@@ -131,6 +131,28 @@ void Foam::wallConditions::findLimits
 }
 
 
+void Foam::wallConditions::keepLimits
+(
+    const List<scalarField>& stress,
+    const scalarField& at
+)
+{
+    findLimits(stress, at);
+    forAll(lastLimit_, i)
+    {
+        lastLimit_[i] = limit_[i]/max(length_[i], VSMALL);
+    }
+}
+
+
+Foam::scalar Foam::wallConditions::toShare(const label i, bool& falls) const
+{
+    const scalar now = limit_[i]/length_[i];
+    falls = now < lastLimit_[i];
+    return -1/max(now, lastLimit_[i]);
+}
+
+
 void Foam::wallConditions::rubOneWay
 (
     const label i,
@@ -141,13 +163,15 @@ void Foam::wallConditions::rubOneWay
 {
     const label dim = mesh_.dim();
     const scalar* t = tangents_.cdata() + dim*(dim - 1)*i;
-    const scalar before = -component(oldTraction, i, t)*length_[i]/limit_[i];
+    bool falls;
+    const scalar before = toShare(i, falls)*component(oldTraction, i, t);
     const coulombFriction::line m
     (
         coulombFriction::along(before, component(slip, i, t), slip_[i])
     );
     const scalar grip =
-        (mag(before) < coulombFriction::all ? m.memory*before : 0) - m.share;
+        (!falls && mag(before) < coulombFriction::all ? m.memory*before : 0)
+      - m.share;
     for (label k = 0; k < dim; ++k)
     {
         share[k] = m.share*t[k];
@@ -172,12 +196,11 @@ void Foam::wallConditions::rubTwoWays
     {
         return component(values, i, t)*a + component(values, i, t + 3)*b;
     };
+    bool falls;
+    const vector before(toShare(i, falls)*within(oldTraction));
     const coulombFriction::plane m
     (
-        coulombFriction::along
-        (
-            -within(oldTraction)*length_[i]/limit_[i], within(slip), slip_[i]
-        )
+        coulombFriction::along(before, within(slip), slip_[i])
     );
     const scalar initial = limit_[i]/slip_[i];
     const vector ahead(mag(m.ahead) > 0 ? m.ahead : a);
@@ -185,7 +208,7 @@ void Foam::wallConditions::rubTwoWays
     for (label k = 0; k < 3; ++k)
     {
         share[k] = m.share[k];
-        normalCoupling_[3*i + k] = m.memory[k] - m.share[k];
+        normalCoupling_[3*i + k] = (falls ? 0 : m.memory[k]) - m.share[k];
         principal_[6*i + k] = ahead[k];
         principal_[6*i + 3 + k] = beside[k];
     }

@@ -116,6 +116,7 @@ void Foam::wallConditions::findRubbing()
     faces_ = scalarField(number);
     limit_.resize(slipNodes_.size(), Zero);
     length_ = limit_;
+    lastLimit_ = limit_;
     principal_ = tangents_;
     stiffness_.resize((dim - 1)*slipNodes_.size(), Zero);
     normalCoupling_.resize(dim*slipNodes_.size(), Zero);

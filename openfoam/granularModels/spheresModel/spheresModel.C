@@ -101,6 +101,12 @@ const keyTable granularModels::spheres::keys
             " of a lower solid fraction", "-", "0 to 0.25", "0"
         },
         {
+            "friction",
+            "coefficient of friction between the spheres: the shipped law is"
+            " trained at 0.3 and [was compared](../quality/spheres.md#other-frictions)"
+            " within this range", "-", "0.2 to 0.5", "0.3"
+        },
+        {
             "coordination",
             "contacts per sphere at the start, all spheres counted. A field"
             " `coordination` replaces it", "-", "0 to 12",
@@ -254,6 +260,8 @@ void Foam::granularModels::spheres::completeGrains()
 {
     grains_.poisson_ratio = keys.number(coeffs_, "poissonRatio");
     grains_.size_spread = keys.number(coeffs_, "sizeSpread");
+    // Only its range counts
+    keys.number(coeffs_, "friction");
     grains_.roughness = keys.number(coeffs_, "roughness");
     if (grains_.roughness > 0)
     {

@@ -27,6 +27,8 @@ pub struct Blocks {
     pub zone: Option<(&'static str, [usize; 2])>,
     /// Significant digits of the coordinates of a wedge.
     pub digits: i32,
+    /// Whether the sides of a box are planes of symmetry.
+    pub symmetric: bool,
 }
 
 impl Blocks {
@@ -135,7 +137,11 @@ impl Blocks {
         for &k in self.order {
             let name = &self.patches[k];
             let flat = matches!(self.across, Across::Wedge(..)) && k > 3;
-            let kind = if flat { "wedge" } else { "wall" };
+            let kind = match self.symmetric && k < 4 {
+                true => "symmetry",
+                false if flat => "wedge",
+                false => "wall",
+            };
             let own = self.patches.iter().zip(faces).filter(|(other, _)| *other == name);
             let own: String = own.map(|(_, faces)| faces.as_str()).collect();
             let _ =
@@ -160,6 +166,7 @@ mod tests {
             order: &[4, 5, 0],
             zone: Some(("bulk", [1, 0])),
             digits: 10,
+            symmetric: false,
         };
         let wedge = Blocks {
             across: Across::Wedge(vec![0.1, 0.5, 1.0], vec![2, 3]),

@@ -103,7 +103,12 @@ fn values(scene: &SphereCase, name: &str, checkout: &Path) -> Result<Values, Cas
         ("initialTemperature", plain(scene.initial_temperature)),
         ("walls", walls(named(), scene.wall_material.is_some()) + inner(&scene.shape)),
         ("libraries", libraries(&scene.walls, scene.wall_material.is_some())),
-        ("wall", scene.wall_material.map_or(String::new(), |wall| wall.entry(&scene.spheres))),
+        (
+            "wall",
+            scene
+                .wall_material
+                .map_or(String::new(), |wall| wall.entry(scene.spheres.roughness, scene.spheres.hardness)),
+        ),
         ("wallResistance", wall_resistance(scene)),
         ("wallRows", wall_rows(named())),
         ("wedge", wedge(&scene.shape).to_string()),
@@ -180,6 +185,7 @@ fn mesh(scene: &SphereCase) -> String {
         order,
         zone: None,
         digits: 10,
+        symmetric: false,
     };
     format!(
         "// {}{about}. A cell should not be smaller than a sphere, {} m.\n\nscale   1;\n\n{}",

@@ -1,7 +1,6 @@
 //! The walls of a bed of spheres: the friction of a flat wall, and its material, from which the resistance between wall and spheres
 //! follows.
 
-use super::material::Spheres;
 use crate::CaseError;
 use crate::numbers::{plain, rounded};
 
@@ -69,14 +68,13 @@ impl WallMaterial {
         }
     }
 
-    /// The entry `wall` of `spheresCoeffs`, for spheres on a polished wall: they have the asperities, and the softer of both yields.
-    pub fn entry(&self, spheres: &Spheres) -> String {
-        let rough = match spheres.roughness > 0.0 {
-            true => format!(
-                " roughness {}; hardness {};",
-                plain(spheres.roughness),
-                plain(self.hardness.min(spheres.hardness))
-            ),
+    /// The entry `wall` of `spheresCoeffs`, for spheres of this roughness \[m\] and hardness \[Pa\] on a polished wall: they have the
+    /// asperities, and the softer of both yields.
+    pub fn entry(&self, roughness: f64, hardness: f64) -> String {
+        let rough = match roughness > 0.0 {
+            true => {
+                format!(" roughness {}; hardness {};", plain(roughness), plain(self.hardness.min(hardness)))
+            }
             false => String::new(),
         };
         format!(
@@ -96,7 +94,7 @@ pub const OF_SPHERE: f64 = 0.3;
 /// Most friction that a flat wall has for a bed, however rough it is.
 const MOST: f64 = 0.18;
 /// Slip at which half of it is reached \[diameters of a sphere\].
-const SLIP: f64 = 1e-3;
+const SLIP: f64 = 5e-4;
 
 /// Tangential over normal stress at a flat wall along which a bed slips, of spheres that slide on it with this coefficient of friction:
 /// less, because spheres also roll along it. The form is a fit to beds of DEM in cylinders, heated and cooled: 0.08, 0.13
@@ -122,9 +120,15 @@ pub fn of_spheres(friction: f64) -> Option<f64> {
 
 /// The keys of friction of a wall in `constant/granularProperties`, each after a blank; `diameter` of the spheres \[m\].
 pub fn friction(friction: f64, diameter: f64) -> String {
+    widened_friction(friction, diameter, 1.0)
+}
+
+/// The same for a mesh that ends before the side of a cylinder, whose radius is larger by the factor `widening`: so much more friction goes to
+/// the side as it is longer.
+pub fn widened_friction(friction: f64, diameter: f64, widening: f64) -> String {
     match friction > 0.0 {
         true => {
-            let [friction, slip] = [of_bed(friction), SLIP * diameter].map(short);
+            let [friction, slip] = [widening * of_bed(friction), SLIP * diameter].map(short);
             format!(" friction {friction}; slip {slip};")
         }
         false => String::new(),

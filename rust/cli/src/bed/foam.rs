@@ -5,19 +5,23 @@ use super::start::FirstRow;
 use crate::case::checkout;
 use crate::error::CliError;
 use clap::Args;
-use msdd_beds::case::{BedCase, file_in};
+use msdd_beds::case::{BedCase, FRICTION, file_in};
 use msdd_beds::schedule::Schedule;
 use msdd_beds::sizes::MAX_SPREAD;
 use msdd_case::fields::{FieldKind, head, uniform};
 use msdd_case::folder::{self, File, check_folder};
 use msdd_case::numbers::{plain, rounded};
-use msdd_case::spheres::wall;
+use msdd_case::spheres::wall::{self, WallMaterial};
 use msdd_case::values::property_text;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
 /// Share of the largest change of temperature that a time step may be wrong by.
 const TOLERANCE: f64 = 2e-3;
+/// Frictions of the spheres that the law, trained with [`FRICTION`], was compared with; the key `friction` of the solver has it, too.
+const FRICTIONS: [f64; 2] = [0.2, 0.5];
+/// Of a wall whose surface has one temperature [W/(m K)].
+const ANY_CONDUCTIVITY: f64 = 1e12;
 /// By how much spheres give way at a plate: about the mean of the poured beds, see `msdd bed slack`.
 const GIVE: &str = "slackLayer 1; slackRecovery 0.1;";
 
@@ -66,8 +70,11 @@ pub fn run(arguments: &Arguments) -> Result<(), CliError> {
 
 /// What the solver's case leaves out.
 fn notes(scene: &BedCase) -> Vec<String> {
-    let grains = (scene.grains.friction != 0.3).then(|| {
-        format!("spheres have a friction of {}; the law of spheres is valid for 0.3", scene.grains.friction)
+    let grains = (scene.grains.friction != FRICTION).then(|| {
+        format!(
+            "spheres have a friction of {}; the law of spheres was trained with {FRICTION} and compared from {} to {}",
+            scene.grains.friction, FRICTIONS[0], FRICTIONS[1]
+        )
     });
     let sides =
         scene.sides.is_some().then(|| "the base is strained; in the solver's case it stays".to_string());
@@ -91,6 +98,15 @@ pub fn files(
             "{}: grains.sizes: the spread of the diameters is {spread:.3} of their mean, by surface, allowed: up to {MAX_SPREAD}, for which the \
              law of spheres was compared",
             file_in(folder).display()
+        )));
+    }
+    let friction = scene.grains.friction;
+    if !(FRICTIONS[0]..=FRICTIONS[1]).contains(&friction) {
+        return Err(CliError::Message(format!(
+            "{}: grains.friction = {friction}, allowed: {} to {}, for which the law of spheres was compared",
+            file_in(folder).display(),
+            FRICTIONS[0],
+            FRICTIONS[1]
         )));
     }
     let geometry = Geometry::new(&file_in(folder), scene, start.depth)?;
@@ -158,9 +174,13 @@ fn temperature(scene: &BedCase) -> String {
     let start = plain(scene.time.initial_temperature);
     let mut walls = "    #includeEtc \"caseDicts/setConstraintTypes\"\n    \".*\"\n    {\n        type            zeroGradient;\n    }\n".to_string();
     for heated in &scene.heated {
+        let (kind, key) = match heated.resists {
+            true => ("granularWall", "temperature    "),
+            false => ("uniformFixedValue", "uniformValue   "),
+        };
         let _ = writeln!(
             walls,
-            "    {}\n    {{\n        type            uniformFixedValue;\n        uniformValue    {};\n        value           uniform {start};\n    }}",
+            "    {}\n    {{\n        type            {kind};\n        {key} {};\n        value           uniform {start};\n    }}",
             heated.wall,
             heated.temperature.as_ref().map_or(String::new(), |temperature| table(temperature, plain))
         );
@@ -177,20 +197,36 @@ fn properties(scene: &BedCase, start: &FirstRow, geometry: &Geometry) -> String 
     let emissivity = grains.emissivity.as_ref().map_or(String::new(), |emissivity| {
         format!("        emissivity      {};\n", property_text(emissivity))
     });
+    let hardness = grains.hardness.unwrap_or(1e9);
+    let surface = WallMaterial {
+        name: "of one temperature",
+        thermal_conductivity: ANY_CONDUCTIVITY,
+        young_modulus: grains.young_modulus,
+        poisson_ratio: grains.poisson_ratio,
+        hardness,
+    };
+    let surface = match scene.heated.iter().any(|heated| heated.resists) {
+        true => surface.entry(grains.roughness.unwrap_or(0.0), hardness),
+        false => String::new(),
+    };
     let spread = grains.sizes.as_ref().map_or(String::new(), |_| {
         format!("        sizeSpread      {};\n", plain(rounded(grains.moments().spread, 4)))
     });
+    let own_friction = match grains.friction == FRICTION {
+        true => String::new(),
+        false => format!("        friction        {};\n", plain(grains.friction)),
+    };
     let mut text = format!(
         "// The law of spheres, and what the bed is like at the start\n\
          surrogate\n{{\n    type            spheres;\n    spheresCoeffs\n    {{\n\
          \x20       poissonRatio    {};\n        roughness       {};\n        hardness        {};\n\
-         {emissivity}{spread}\x20       gas             {};\n        gasPressure     {};\n        accommodation   {};\n\
+         {emissivity}{spread}{own_friction}{surface}\x20       gas             {};\n        gasPressure     {};\n        accommodation   {};\n\
          \x20       coordination    {};\n        mobilised       {};\n        fabric          {fabric};\n    }}\n}}\n\n\
          density             {};\nyoungModulus        {};\nthermalConductivity {};\nheatCapacity        {};\n\
          thermalExpansion    {};\nmeanRadius          {};\n\nmechanics           equilibrium;\n\nequilibriumCoeffs\n{{\n    walls\n    {{\n",
         plain(grains.poisson_ratio),
         plain(grains.roughness.unwrap_or(0.0)),
-        plain(grains.hardness.unwrap_or(1e9)),
+        plain(hardness),
         scene.gas.name.as_str(),
         plain(scene.gas.pressure),
         plain(scene.gas.accommodation),
@@ -205,6 +241,7 @@ fn properties(scene: &BedCase, start: &FirstRow, geometry: &Geometry) -> String 
     );
     let rigid = wall::entry(grains.wall_friction, grains.diameter);
     let friction = wall::friction(grains.wall_friction, grains.diameter);
+    let at_side = wall::widened_friction(grains.wall_friction, grains.diameter, geometry.widening);
     let lid = match scene.lid_moves() {
         (Some(strain), _) => {
             let moved = table(strain, |strain| geometry.along(-strain * geometry.depth()));
@@ -227,12 +264,14 @@ fn properties(scene: &BedCase, start: &FirstRow, geometry: &Geometry) -> String 
                 grains.wall_friction,
             );
             format!(
-                "type shell; youngModulus {}; thickness {}; radius {};{expansion}{friction}",
+                "type shell; youngModulus {}; thickness {}; radius {};{expansion}{at_side}",
                 plain(shell.young_modulus),
                 plain(shell.thickness / geometry.widening),
                 plain(radius)
             )
         }
+        None if geometry.endless => "type symmetry;".to_string(),
+        None if grains.wall_friction > 0.0 => format!("type rigid;{at_side}"),
         None => rigid.clone(),
     };
     if geometry.radii.is_some() {
@@ -263,8 +302,12 @@ fn control(scene: &BedCase, geometry: &Geometry) -> String {
         .map(|[x, y, z]| format!("({} {} {})", plain(*x), plain(*y), plain(*z)))
         .collect();
     let time = &scene.time;
+    let libraries = match scene.heated.iter().any(|heated| heated.resists) {
+        true => "// With granularWall of 0/T\nlibs            (\"libgranularThermo.so\");\n",
+        false => "",
+    };
     format!(
-        "application     msddFoam;\nstartFrom       latestTime;\nstartTime       0;\nstopAt          endTime;\nendTime         {};\n\
+        "{libraries}application     msddFoam;\nstartFrom       latestTime;\nstartTime       0;\nstopAt          endTime;\nendTime         {};\n\
          deltaT          {};\n\nadjustTimeStep  yes;\nmaxDeltaT       {};\nwriteControl    runTime;\nwriteInterval   {};\n\
          writePrecision  17;\ntimePrecision   8;\nrunTimeModifiable no;\n\nfunctions\n{{\n\
          \x20   // Temperature where DEM records it\n    probes\n    {{\n        type            probes;\n\

@@ -11,6 +11,8 @@ use std::path::Path;
 
 /// Cells along a direction in which heat flows.
 const CELLS: f64 = 40.0;
+/// Cells along the axis between rough walls, along which the stress changes, where no heat flows there.
+const ROUGH_CELLS: f64 = 12.0;
 /// Width of the column of a box, in diameters.
 const WIDTH: f64 = 3.0;
 /// Where the mesh ends before a plate, in diameters. A plate that is heated holds the first layer of grains at its temperature: the mesh
@@ -31,6 +33,8 @@ pub struct Geometry {
     pub radii: Option<[f64; 3]>,
     /// Of the cylinder over that of the mesh.
     pub widening: f64,
+    /// Whether the column stands for a bed without sides, whose sides are planes of symmetry.
+    pub endless: bool,
     /// Cells between the levels, and between the radii.
     cells: ([usize; 3], [usize; 2]),
     diameter: f64,
@@ -54,11 +58,17 @@ impl Geometry {
             ));
         }
         let diameter = scene.grains.diameter;
-        let half = HELD * diameter;
+        let half = if scene.resists("side") { 0.0 } else { HELD * diameter };
         let flows_along = heated("floor") || heated("lid");
         let insulated = if flows_along { INSULATED } else { HELD };
-        let first = diameter * if heated("floor") { HELD_BY_FLOOR } else { insulated };
-        let last = depth - diameter * if heated("lid") { HELD } else { insulated };
+        // Up to a wall that resists: what is next to it is in its resistance.
+        let end = |wall: &str, held: f64, other: f64| match (scene.resists(wall), heated(wall)) {
+            (true, _) => 0.0,
+            (false, true) => held * diameter,
+            (false, false) => other * diameter,
+        };
+        let first = end("floor", HELD_BY_FLOOR, insulated);
+        let last = depth - end("lid", HELD, insulated);
         let [low, high] = scene.record.heights;
         if low <= first || high >= last {
             let allowed =
@@ -82,7 +92,11 @@ impl Geometry {
             lengths.iter().map(|length| ((all * length / whole).round() as usize).max(1)).collect()
         };
         let along = [1, 2, 3].map(|k| levels[k] - levels[k - 1]);
-        let axial = if flows_along { share(&along, CELLS) } else { vec![1; 3] };
+        let axial = match scene.grains.wall_friction > 0.0 {
+            _ if flows_along => share(&along, CELLS),
+            true => share(&along, ROUGH_CELLS),
+            false => vec![1; 3],
+        };
         let radii = match (scene.container.radius, scene.record.radius) {
             (Some(radius), Some(inner)) if inner < radius - half => {
                 Some([INNER * radius, inner, radius - half])
@@ -98,7 +112,7 @@ impl Geometry {
             .map_or(vec![1; 2], |[a, b, c]| share(&[b - a, c - b], if heated("side") { 20.0 } else { 4.0 }));
         let widening = scene.container.radius.map_or(1.0, |radius| radius / (radius - half));
         let cells = ([axial[0], axial[1], axial[2]], [radial[0], radial[1]]);
-        Ok(Self { levels, radii, widening, cells, diameter, plates: depth })
+        Ok(Self { levels, radii, widening, endless: scene.container.endless, cells, diameter, plates: depth })
     }
 
     /// Of the mesh along the axis [m].
@@ -168,6 +182,6 @@ impl Geometry {
         };
         let zone = Some(("bulk", [1, 0]));
         let (levels, cells) = (self.levels.to_vec(), axial.to_vec());
-        Blocks { across, levels, cells, patches, order, zone, digits: 13 }.text()
+        Blocks { across, levels, cells, patches, order, zone, digits: 13, symmetric: self.endless }.text()
     }
 }

@@ -39,7 +39,8 @@ impl Walls {
                 continue;
             };
             let kind = entry.text("type")?;
-            if kind != "pressure" {
+            // The side of 'msdd bed case' has that of the others, for a larger radius.
+            if kind != "pressure" && !(mesh.is_of_elements && wall == "side") {
                 frictions.push((patch, friction(entry, patch, notes)?));
             }
             match (kind.as_str(), wall) {
