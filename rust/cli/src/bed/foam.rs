@@ -78,7 +78,11 @@ fn notes(scene: &BedCase) -> Vec<String> {
     });
     let sides =
         scene.sides.is_some().then(|| "the base is strained; in the solver's case it stays".to_string());
-    grains.into_iter().chain(sides).collect()
+    let stretches = scene.shell.as_ref().is_some_and(|shell| shell.thermal_expansion > 0.0);
+    let along = (stretches && scene.grains.wall_friction > 0.0).then(|| {
+        "the shell expands along its axis, too, past spheres that rub on it; in DEM its radius alone grows".to_string()
+    });
+    grains.into_iter().chain(sides).chain(along).collect()
 }
 
 /// The files of the case.
