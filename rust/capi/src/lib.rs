@@ -6,6 +6,7 @@
 //! | [`exports`] | the header's functions: pointers checked, then safe code |
 //! | `handles` | the types behind the opaque handles |
 //! | `model` | what the exports need of a model, our own or a plug-in |
+//! | `load` | which model a caller names |
 //! | `discs`, `spheres`, `foreign` | the models of discs, the model of spheres, plug-ins |
 //! | `columns` | columns of the caller: one value per cell, at a stride |
 //! | `start`, `step` | the checked columns of an initial state and of a step |
@@ -24,6 +25,7 @@ pub mod exports;
 mod foreign;
 mod grains;
 mod handles;
+mod load;
 mod model;
 mod panics;
 mod si;

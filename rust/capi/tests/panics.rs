@@ -22,7 +22,7 @@ fn a_panic_becomes_a_status_with_text_and_place() {
             message.starts_with("internal error (a bug in msdd): ") && message.contains("injected"),
             "{message}"
         );
-        assert!(message.contains("model.rs:"), "{message}");
+        assert!(message.contains("load.rs:"), "{message}");
     }
     // The library goes on as before, on this thread and others.
     Cells::new(&model, 9).advance(&model);

@@ -1,6 +1,5 @@
 //! The sections of a bed that all ways to compute it have: the spheres, what they are poured into, the gas.
 
-use super::Wrong;
 use crate::effective::{GOOD, MIN_RATIO, closure_error};
 use crate::exchange::{Emissivities, Exchange, OutOfRange, RADIATING, Tracing, exchange};
 use crate::named_gases::GasName;
@@ -13,6 +12,9 @@ use msdd_engine::message::{number, range};
 use msdd_spheres::{Material, Simulation, Stiffness};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
+
+/// A value that is wrong: its key, the value, what is allowed.
+pub(super) type Wrong = (String, String, String);
 
 /// The spheres.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -33,7 +35,7 @@ pub struct Grains {
     /// of `young_modulus`.
     #[serde(default = "absent")]
     pub simulated_young_modulus: f64,
-    /// Coefficient of friction of two grains. Allowed: `FRICTIONS`; by the solver 0.3, for which its law is valid. Default: 0.3.
+    /// Coefficient of friction of two grains. Allowed: `FRICTIONS`; by the solver 0.2 to 0.5. Default: 0.3.
     #[serde(default = "usual_friction")]
     pub friction: f64,
     /// Coefficient of friction of a grain and a wall. Allowed: `FRICTIONS`. Default: 0.3.

@@ -6,6 +6,7 @@ mod former;
 mod grains;
 mod sections;
 
+use grains::Wrong;
 pub use grains::{FRICTION, GasKeys, Grains, RESTITUTION, Vessel};
 pub use sections::{
     End, ExperimentKeys, Flow, Heated, Lid, Mechanics, PlateKeys, RecordKeys, Shell, Sides, SolverKeys, Time,
@@ -115,9 +116,6 @@ pub enum CaseError {
     #[error("{file}: {key} = {value}, allowed: {allowed}", file = file.display())]
     Value { file: PathBuf, key: String, value: String, allowed: String },
 }
-
-/// A value that is wrong: its key, the value, what is allowed.
-type Wrong = (String, String, String);
 
 impl BedCase {
     /// Reads and checks the description in the folder of a case.

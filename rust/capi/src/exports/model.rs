@@ -5,7 +5,7 @@ use crate::abi::{msdd_grains, msdd_model, msdd_output, msdd_start, msdd_step};
 use crate::columns::{Input, Output, check_length};
 use crate::grains::Grains;
 use crate::handles::ModelHandle;
-use crate::model;
+use crate::load::load;
 use crate::si::Si;
 use crate::start::Start;
 use crate::status::{Failure, status, value};
@@ -27,7 +27,7 @@ pub unsafe extern "C" fn msdd_model_load(source: *const c_char, out: *mut *mut m
             // SAFETY: not null, a C string by this function's contract.
             false => unsafe { string("source", source)? },
         };
-        let handle = Box::into_raw(Box::new(ModelHandle::new(model::load(&source)?)));
+        let handle = Box::into_raw(Box::new(ModelHandle::new(load(&source)?)));
         // SAFETY: not null, writable by this function's contract.
         unsafe { out.write(handle.cast()) };
         Ok(())

@@ -1,6 +1,6 @@
 //! Curves over time, in the language of [`msdd_draw::page`]: T at the probes, mean pressure, stress at the walls, slices along x.
 
-use super::case_name;
+use super::names::case_name;
 use crate::plan::FAMILIES;
 use crate::report::Made;
 use crate::studies::detail::{WALL_COLUMNS, WALLS};

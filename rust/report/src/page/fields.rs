@@ -1,7 +1,7 @@
 //! Maps of sub-regions, at the start and at the end.
 
-use super::case_name;
 use super::curves::configurations;
+use super::names::case_name;
 use crate::plan::FAMILIES;
 use crate::report::Made;
 use msdd_draw::{Cells, Map, Sheet, maps};

@@ -3,6 +3,7 @@
 
 mod curves;
 mod fields;
+mod names;
 mod states;
 
 use crate::ReportError;
@@ -33,11 +34,6 @@ const TEMPLATES: [(&str, &str); 9] = templates!(
     "case.html",
     "case.csv"
 );
-
-/// Name of the case in a folder; those without expansion have a star.
-fn case_name(case: &str) -> &str {
-    CASES.iter().find(|c| c.0 == case).map_or(case, |c| c.1)
-}
 
 fn origin(stamp: &Stamp) -> String {
     format!("scripts/report · {} · {}", stamp.commit, stamp.date)

@@ -1,6 +1,6 @@
 //! States at which the solver evaluates the model, compared with the database, and the grains around P2.
 
-use super::case_name;
+use super::names::case_name;
 use crate::plan::{CHARTED, FAMILIES};
 use crate::report::Made;
 use crate::studies::detail::REGIONS;
