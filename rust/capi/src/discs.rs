@@ -4,7 +4,7 @@ use crate::columns::{Input, Output};
 use crate::grains::Grains;
 use crate::model::BatchModel;
 use crate::si::Si;
-use crate::start::{Start, in_plane};
+use crate::start::{InPlane, Start, in_plane};
 use crate::status::Failure;
 use crate::step::Step;
 use msdd_surrogate::Surrogate;
@@ -97,7 +97,7 @@ impl BatchModel for Discs {
         let (porosity, fabric_index) = porosity_and_fabric(start)?;
         let stress = in_plane("stress", &start.stress)?;
         let conductivity = in_plane("conductivity", &start.conductivity)?;
-        let tensor = |columns: Option<([Input; 2], Option<Input>)>, cell| {
+        let tensor = |columns: Option<InPlane>, cell| {
             columns.map(|([xx, yy], xy)| [xx.at(cell), yy.at(cell), xy.map_or(0.0, |column| column.at(cell))])
         };
         // Cells often start alike: an answer is found once for a run of equal ones.

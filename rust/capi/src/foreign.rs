@@ -6,7 +6,7 @@ use crate::discs::{check, lanes_or_zero, porosity_and_fabric};
 use crate::grains::Grains;
 use crate::model::BatchModel;
 use crate::si::Si;
-use crate::start::{Start, in_plane};
+use crate::start::{InPlane, Start, in_plane};
 use crate::status::Failure;
 use crate::step::Step;
 use msdd_plugin::{Answer, Plugin};
@@ -63,7 +63,7 @@ impl BatchModel for Plugin {
 
     fn initial_state(&self, start: &Start, grains: &Grains, state: &[Output<f64>]) -> Result<(), Failure> {
         let si = Si::new(grains)?;
-        let tensor = |columns: Option<([Input; 2], Option<Input>)>, convert: &dyn Fn(f64) -> f64| {
+        let tensor = |columns: Option<InPlane>, convert: &dyn Fn(f64) -> f64| {
             let of = |input: Input| input.to_vec().into_iter().map(convert).collect::<Vec<f64>>();
             columns.map(|([xx, yy], xy)| [of(xx), of(yy), xy.map_or_else(|| vec![0.0; start.cells], of)])
         };

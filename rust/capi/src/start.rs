@@ -98,11 +98,14 @@ impl<'a> Start<'a> {
     }
 }
 
+/// Columns of a tensor in the plane: xx and yy, and xy if it is given.
+pub(crate) type InPlane<'a> = ([Input<'a>; 2], Option<Input<'a>>);
+
 /// The components xx, yy and xy of a tensor in the plane: xx and yy both or none, xy 0 unless given. None if nothing is given.
 pub(crate) fn in_plane<'a>(
     name: &str,
     columns: &[Option<Input<'a>>],
-) -> Result<Option<([Input<'a>; 2], Option<Input<'a>>)>, Failure> {
+) -> Result<Option<InPlane<'a>>, Failure> {
     match columns {
         [] | [None, None, None] => Ok(None),
         [Some(xx), Some(yy), xy] => Ok(Some(([*xx, *yy], *xy))),

@@ -126,7 +126,7 @@ impl Core {
         let xy = read::<V>(&strain.xy, MAX_STRAIN);
         let (next, moduli) = match tangent {
             None => {
-                let strain = Strain { thermal: thermal, xx: xx, yy: yy, xy: xy };
+                let strain = Strain { thermal, xx, yy, xy };
                 self.law.advanced(&before, &strain, [turn[0], turn[1]])
             }
             Some(tangent) => {
@@ -291,14 +291,12 @@ fn read<V: Vector>(lanes: &Lanes, most: f64) -> V {
 fn elastic<V: Vector>(law: &Law, state: &StateLanes) -> Elastic<V> {
     let jamming = V::read(&state[JAMMING]).within(V::all(MIN_JAMMING), V::all(MAX_JAMMING));
     let compression = V::read(&state[COMPRESSION]).within(V::all(MIN_COMPRESSION), V::all(MAX_COMPRESSION));
-    let compression = compression;
     let mut all = [[jamming; 2]; ELEMENTS];
     for k in 0..ELEMENTS {
         let along = read::<V>(&state[SHEAR + 2 * k], MAX_SHEAR);
         all[k] = [along, read::<V>(&state[SHEAR + 2 * k + 1], MAX_SHEAR)];
     }
     let strength = V::read(&state[STRENGTH]).within(V::all(MIN_STRENGTH), V::all(law.most_strength()));
-    let strength = strength;
     Elastic { jamming, compression, shear: all, strength }
 }
 

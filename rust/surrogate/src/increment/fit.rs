@@ -164,7 +164,7 @@ struct Seen<'a> {
 
 /// Features of the measured stress and the law's looseness.
 fn features(point: &Point, loose: f64) -> Features<f64> {
-    let stress = point.invariants().map(|value| Portable::all(value));
+    let stress = point.invariants().map(Portable::all);
     Features::of(&stress, Portable::all(loose)).first()
 }
 

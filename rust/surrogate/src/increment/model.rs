@@ -205,7 +205,7 @@ pub(crate) fn features(core: &Core, state: &[f64; MAX_STATE]) -> Features<f64> {
     let (block, mut answer) = (state.map(|value| [value; LANES]), Answer::default());
     core.advance(&block, &Increment::default(), &mut answer, None);
     let [xx, yy, xy] = answer.stress.map(|column| column[0]);
-    let stress = [0.5 * (xx + yy), 0.5 * (xx - yy), xy].map(|value| Portable::all(value));
+    let stress = [0.5 * (xx + yy), 0.5 * (xx - yy), xy].map(Portable::all);
     Features::of(&stress, Portable::all(1.0 - state[JAMMING])).first()
 }
 
