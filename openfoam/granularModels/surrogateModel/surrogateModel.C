@@ -244,7 +244,7 @@ void Foam::granularModels::surrogateModel::checkNames() const
         {
             FatalIOErrorInFunction(coeffs_)
                 << "Model " << source_ << " has the state column "
-                << columnNames_[i].c_str() << ", whose field " << name
+                << std::string(columnNames_[i]) << ", whose field " << name
                 << " the solver or its mesh has itself." << nl
                 << "Allowed: any name except fields of the mesh and "
                 << granularProperties::listed(ownNames()).c_str()
