@@ -120,7 +120,7 @@ impl<'a> Input<'a> {
         (first..self.length).find(|&cell| is(self.at(cell)))
     }
 
-    /// Refuses values outside of a range, whose ends belong to it.
+    /// Refuses values outside of a range, whose ends belong to it, NaN and infinity.
     pub fn check_range(&self, low: f64, high: f64, allowed: &str) -> Result<(), Failure> {
         self.refuse(|value| !(low <= value && value <= high), allowed)
     }
@@ -133,7 +133,10 @@ impl<'a> Input<'a> {
     fn refuse(&self, is: impl Fn(f64) -> bool, allowed: &str) -> Result<(), Failure> {
         match self.position(is) {
             None => Ok(()),
-            Some(cell) => Err(Failure::number(format!("{}[{cell}]", self.name), self.at(cell), allowed)),
+            Some(cell) if self.at(cell).is_finite() => {
+                Err(Failure::number(format!("{}[{cell}]", self.name), self.at(cell), allowed))
+            }
+            Some(_) => self.check_finite(),
         }
     }
 
@@ -262,13 +265,21 @@ impl<'a> Place<'a> {
     }
 }
 
+/// Columns of a call with all outputs, about.
+const MANY: usize = 192;
+
 /// Refuses outputs that overlap each other, or an input without being the same column.
 pub(crate) fn check_apart<'a>(places: impl Iterator<Item = Place<'a>>) -> Result<(), Failure> {
-    let mut places: Vec<Place> = places.filter(|place| place.length > 0).collect();
-    places.sort_unstable_by_key(|place| place.start);
-    for (k, one) in places.iter().enumerate() {
-        let end = one.end();
-        for other in places[k + 1..].iter().take_while(|other| other.start < end) {
+    // The check is a part of each call: starts and numbers alone are sorted, in memory that is taken once.
+    let mut all: Vec<Place> = Vec::with_capacity(MANY);
+    all.extend(places.filter(|place| place.length > 0));
+    let mut order: Vec<(usize, usize)> = Vec::with_capacity(all.len());
+    order.extend(all.iter().enumerate().map(|(k, place)| (place.start, k)));
+    order.sort_unstable();
+    for (n, &(_, k)) in order.iter().enumerate() {
+        let (one, end) = (&all[k], all[k].end());
+        for &(_, other) in order[n + 1..].iter().take_while(|(start, _)| *start < end) {
+            let other = &all[other];
             let same = (one.start, one.step()) == (other.start, other.step());
             let allowed = match one.is_output as u8 + other.is_output as u8 {
                 0 => true,

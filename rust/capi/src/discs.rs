@@ -22,6 +22,7 @@ const LARGEST_STRAIN: f64 = 10.0;
 
 /// Refuses what no model of discs answers, and the mechanics of models without them.
 pub(crate) fn check(step: &Step, name: &str, has_tangent: bool) -> Result<(), Failure> {
+    step.state.iter().chain(&step.thermal_strain).try_for_each(Input::check_finite)?;
     if let Some(column) = &step.total_thermal_strain {
         column.check_above(-1.0, LARGEST_STRAIN, "above -1, to 10")?;
     }

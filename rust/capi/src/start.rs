@@ -62,16 +62,13 @@ impl<'a> Start<'a> {
         ];
         for (column, low, high, allowed) in ranges {
             if let Some(column) = column {
-                column.check_finite()?;
                 column.check_range(low, high, allowed)?;
             }
         }
         for column in self.stress.iter().flatten() {
-            column.check_finite()?;
             column.check_range(-LARGEST_STRESS, LARGEST_STRESS, "-1e30 to 1e30 Pa")?;
         }
         for column in self.conductivity.iter().flatten() {
-            column.check_finite()?;
             let (low, allowed) = match column.name.ends_with("[xx]") || column.name.ends_with("[yy]") {
                 true => (f64::MIN_POSITIVE, "above 0, to 1e30 W/(m K)"),
                 false => (-LARGEST_STRESS, "-1e30 to 1e30 W/(m K)"),
@@ -79,7 +76,6 @@ impl<'a> Start<'a> {
             column.check_range(low, LARGEST_STRESS, allowed)?;
         }
         for column in &self.fabric {
-            column.check_finite()?;
             column.check_range(-1.0, 1.0, "-1 to 1")?;
         }
         Ok(())

@@ -177,7 +177,6 @@ impl<'a> Step<'a> {
     }
 
     fn check(&self) -> Result<(), Failure> {
-        self.inputs().try_for_each(Input::check_finite)?;
         for column in self.strain.iter().chain(&self.rotation).flatten() {
             column.check_above(-LARGEST_STEP, LARGEST_STEP, "above -0.2, to 0.2")?;
         }

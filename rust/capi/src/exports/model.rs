@@ -264,7 +264,6 @@ pub unsafe extern "C" fn msdd_model_solid_fraction(
         if solid_fraction.is_null() && cells > 0 {
             return Err(Failure::null("solid_fraction"));
         }
-        input.check_finite()?;
         input.check_range(0.0, 1.0, "0 to 1")?;
         handle.model.solid_fraction(&input, &output)
     })

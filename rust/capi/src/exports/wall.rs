@@ -58,9 +58,6 @@ pub unsafe extern "C" fn msdd_wall_resistance(
                 Output::contiguous("resistance", resistance, faces),
             )
         };
-        for column in [&stress, &temperature, &conductivity] {
-            column.check_finite()?;
-        }
         stress.check_range(-LARGEST_STRESS, LARGEST_STRESS, "-1e30 to 1e30 Pa")?;
         temperature.check_range(0.0, 1e5, "0 to 1e5 K")?;
         conductivity.check_range(0.0, 1e30, "0 to 1e30 W/(m K)")?;
