@@ -19,7 +19,7 @@ use msdd_beds::plate_view_areas::facing;
 use msdd_beds::pour::{Container, Pouring, pour};
 use msdd_beds::press::press;
 use msdd_beds::property::Property;
-use msdd_beds::scatter::Random;
+use msdd_beds::random::Random;
 use msdd_spheres::{Boundary, Cell, Material, Simulation, Sphere, Stiffness, Wall};
 use std::error::Error;
 

@@ -4,7 +4,8 @@
 
 use crate::BedError;
 use crate::averages::{Averages, averages, stress};
-use crate::scatter::{Random, scatter};
+use crate::random::Random;
+use crate::scatter::scatter;
 use crate::sizes::{Moments, Sizes, radii};
 use msdd_spheres::{Boundary, Cell, Material, Simulation, Sphere, Stiffness};
 use serde::{Deserialize, Serialize};

@@ -341,7 +341,8 @@ mod tests {
     use crate::direct::voxels::Ball;
     use crate::direct::walk_on_spheres::Room;
     use crate::gas::plate_conductance;
-    use crate::scatter::{Random, scatter};
+    use crate::random::Random;
+    use crate::scatter::scatter;
     use msdd_spheres::{Boundary, Cell, Material, Stiffness};
 
     fn bed(spheres: &[([f64; 3], f64)], boundary: Boundary) -> Simulation {

@@ -4,7 +4,7 @@
 //! keeps ([`crate::settle`]).
 
 use crate::BedError;
-use crate::scatter::Random;
+use crate::random::Random;
 use crate::settle::{Rest, descent, settle};
 use crate::sizes::{Moments, Sizes, radii};
 use msdd_spheres::time_step::SAFETY;

@@ -1,7 +1,7 @@
 //! Loose random spheres to start from: random places without overlap (random sequential addition).
 
 use crate::BedError;
-pub use crate::random::Random;
+use crate::random::Random;
 
 /// Attempts per sphere before giving up. Random sequential addition of equal spheres ends at a solid fraction of 0.38.
 const ATTEMPTS: u32 = 100_000;

@@ -2,9 +2,9 @@
 
 use crate::error::CliError;
 use clap::Args;
+use msdd_dem_reference::solver::nonuniform;
 use msdd_draw::{Cells, Map, Sheet, maps, sheet};
 use msdd_files::{read_text, write};
-use msdd_reference::solver::nonuniform;
 use msdd_rve::{Simulation, state};
 use std::fmt::Write;
 use std::path::PathBuf;

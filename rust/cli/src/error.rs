@@ -21,7 +21,7 @@ pub enum CliError {
     #[error(transparent)]
     Database(#[from] msdd_rve::database::DatabaseError),
     #[error(transparent)]
-    Reference(#[from] msdd_reference::ReferenceError),
+    Reference(#[from] msdd_dem_reference::ReferenceError),
     #[error(transparent)]
     Report(#[from] msdd_report::ReportError),
     #[error(transparent)]

@@ -2,7 +2,7 @@
 //!
 //!     cargo run --release -p msdd-report --example targets [-- NAME]      # only cases whose name contains NAME
 
-use msdd_reference::packings::Reference;
+use msdd_dem_reference::packings::Reference;
 use msdd_report::failures::cycles;
 use msdd_report::jobs::cache::{Cache, programs};
 use msdd_report::jobs::execute::{Place, Stamp};

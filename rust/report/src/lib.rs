@@ -14,7 +14,7 @@
 //! | [`case`] | speed against accuracy for a case of the user's |
 //! | [`page`] | the page |
 //!
-//! Errors against DEM are those of [`msdd_reference::compare`].
+//! Errors against DEM are those of [`msdd_dem_reference::compare`].
 #![forbid(unsafe_code)]
 
 pub mod case;
@@ -40,9 +40,9 @@ pub enum ReportError {
     #[error(transparent)]
     Case(#[from] msdd_case::CaseError),
     #[error(transparent)]
-    Choice(#[from] msdd_choice::ChoiceError),
+    Choice(#[from] msdd_autotune::ChoiceError),
     #[error(transparent)]
-    Reference(#[from] msdd_reference::ReferenceError),
+    Reference(#[from] msdd_dem_reference::ReferenceError),
     #[error("{cache} has no result of these jobs: nothing to draw; without --draw they are run", cache = cache.display())]
     Empty { cache: PathBuf },
     #[error("there is no chart of this case: {problem}")]

@@ -18,8 +18,8 @@ use crate::studies::sensitivity::{self, Sensitivity};
 use crate::studies::spheres::{self, Spheres};
 use crate::studies::targets::{Target, targets};
 use crate::studies::validation::{Validated, scatter, validation};
-use msdd_reference::packings::{CASES, Reference};
-use msdd_reference::solver::Run;
+use msdd_dem_reference::packings::{CASES, Reference};
+use msdd_dem_reference::solver::Run;
 use serde::Serialize;
 use std::collections::BTreeMap;
 

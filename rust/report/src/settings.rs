@@ -5,7 +5,7 @@ use crate::jobs::execute::{Place, Record};
 use crate::jobs::job::Job;
 use crate::jobs::pool::Records;
 use crate::plan::Configuration;
-use msdd_reference::packings::SEEDS;
+use msdd_dem_reference::packings::SEEDS;
 
 /// Settings of a report.
 pub struct Settings {

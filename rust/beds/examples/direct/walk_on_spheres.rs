@@ -9,7 +9,7 @@
 //! network.
 
 use super::voxels::Ball;
-use msdd_beds::scatter::Random;
+use msdd_beds::random::Random;
 use std::f64::consts::{PI, TAU};
 
 /// A walk ends so near to a surface, over the largest radius.

@@ -2,17 +2,17 @@
 
 use crate::case::{attempt, beside};
 use crate::error::CliError;
+use msdd_autotune::ChoiceError;
+use msdd_autotune::bands::{CONDUCTIVITY, LEVEL, Law, Lengths, Numbers, Units, sensitivity};
+use msdd_autotune::calibrate::{Coverage, Row, coverage, fit, quantile};
+use msdd_autotune::quantity::Quantity;
+use msdd_autotune::series::Series;
+use msdd_autotune::settings::{Level, Settings};
+use msdd_autotune::trial::{self, Outcome};
+use msdd_autotune::user_case::UserCase;
 use msdd_case::numbers::plain;
-use msdd_choice::ChoiceError;
-use msdd_choice::bands::{CONDUCTIVITY, LEVEL, Law, Lengths, Numbers, Units, sensitivity};
-use msdd_choice::calibrate::{Coverage, Row, coverage, fit, quantile};
-use msdd_choice::quantity::Quantity;
-use msdd_choice::series::Series;
-use msdd_choice::settings::{Level, Settings};
-use msdd_choice::trial::{self, Outcome};
-use msdd_choice::user_case::UserCase;
+use msdd_dem_reference::scenes::{PlannedScene, SceneResults};
 use msdd_files::{Column, Lock, names, write};
-use msdd_reference::scenes::{PlannedScene, SceneResults};
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};

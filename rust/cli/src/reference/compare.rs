@@ -3,10 +3,10 @@
 use crate::error::CliError;
 use clap::Args;
 use msdd_case::Case;
-use msdd_reference::compare::{check_grains, check_points, temperature_errors};
-use msdd_reference::results::Results;
-use msdd_reference::solver::{probe_points, probe_rows};
-use msdd_reference::start::InitialMeans;
+use msdd_dem_reference::compare::{check_grains, check_points, temperature_errors};
+use msdd_dem_reference::results::Results;
+use msdd_dem_reference::solver::{probe_points, probe_rows};
+use msdd_dem_reference::start::InitialMeans;
 use msdd_rve::message::number;
 use std::path::PathBuf;
 

@@ -3,9 +3,9 @@
 
 use crate::error::CliError;
 use clap::Args;
+use msdd_dem_reference::results::{Results, Table};
+use msdd_dem_reference::series::mean_and_deviation;
 use msdd_files::write;
-use msdd_reference::results::{Results, Table};
-use msdd_reference::series::mean_and_deviation;
 use serde_json::{Map, Value, json};
 use std::collections::BTreeMap;
 use std::path::PathBuf;

@@ -2,9 +2,9 @@
 
 use super::read::{CaseResult, PROBES};
 use crate::error::CliError;
+use msdd_dem_reference::packings::{Reference, SEEDS, pressure_range, temperature_range};
+use msdd_dem_reference::series::{at, largest, statistics};
 use msdd_files::read_text;
-use msdd_reference::packings::{Reference, SEEDS, pressure_range, temperature_range};
-use msdd_reference::series::{at, largest, statistics};
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::path::Path;

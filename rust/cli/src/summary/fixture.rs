@@ -1,6 +1,6 @@
 //! Small results of six cases, for the tests of this module.
 
-use msdd_reference::packings::CASES;
+use msdd_dem_reference::packings::CASES;
 use std::path::{Path, PathBuf};
 
 /// What the solver writes at the end of a run.

@@ -2,12 +2,12 @@
 
 use crate::ReportError;
 use crate::jobs::job::{CaseDiscs, CaseJob, CaseProgram};
+use msdd_autotune::user_case::UserCase;
 use msdd_case::dictionary::{Dictionary, Entry};
 use msdd_case::packing::{sum_porosity, usual_fabric};
 use msdd_case::{Case, CaseError};
-use msdd_choice::user_case::UserCase;
-use msdd_reference::model::Filling;
-use msdd_reference::run::estimated_steps;
+use msdd_dem_reference::model::Filling;
+use msdd_dem_reference::run::estimated_steps;
 use msdd_rve::Compression;
 use std::path::Path;
 

@@ -1,7 +1,7 @@
 //! How far a run is from the reference.
 
 use crate::jobs::user_case::Measured;
-use msdd_choice::series::Series;
+use msdd_autotune::series::Series;
 use serde::Serialize;
 
 /// An error at the worst point and the mean over the points, each the root of the mean square over the times [%].

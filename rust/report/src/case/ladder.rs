@@ -2,10 +2,10 @@
 
 use crate::ReportError;
 use crate::jobs::job::CaseRun;
+use msdd_autotune::bed::Grains;
+use msdd_autotune::settings::{Level, Settings};
+use msdd_autotune::user_case::UserCase;
 use msdd_case::dictionary::{Dictionary, Entry};
-use msdd_choice::bed::Grains;
-use msdd_choice::settings::{Level, Settings};
-use msdd_choice::user_case::UserCase;
 use std::collections::BTreeMap;
 
 /// Kinds of configurations, which are drawn with different markers and colours.
@@ -170,7 +170,7 @@ fn as_it_is(scene: &UserCase) -> Result<Option<Rung>, ReportError> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use msdd_choice::bed::BandInputs;
+    use msdd_autotune::bed::BandInputs;
 
     fn scene() -> UserCase {
         let folder = std::env::temp_dir().join(format!("msdd-report-ladder-{}", std::process::id()));

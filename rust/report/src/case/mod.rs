@@ -24,9 +24,9 @@ use crate::settings::Settings;
 use crate::studies::front::{Point, cheapest, mark};
 use errors::{Errors, Truth};
 use ladder::{FAMILIES, Rung, ladder, level};
+use msdd_autotune::record::{self, sentence};
+use msdd_autotune::user_case::UserCase;
 use msdd_case::CaseError;
-use msdd_choice::record::{self, sentence};
-use msdd_choice::user_case::UserCase;
 use msdd_files::Lock;
 use reference::Reference;
 use serde::Serialize;
@@ -168,7 +168,7 @@ fn report(work: &mut Work, watch: &mut Watch) -> Result<CaseReport, ReportError>
 
 /// Range of T [K], which a run on few cells shows.
 fn range(work: &mut Work, watch: &mut Watch) -> Result<f64, ReportError> {
-    let settings = msdd_choice::settings::Settings::new(level(work.scene, 2), 1e-3, false);
+    let settings = msdd_autotune::settings::Settings::new(level(work.scene, 2), 1e-3, false);
     let rung = Rung { range: None, ..Rung::new(work.scene, 0.0, settings) };
     let job = work.solver(&rung, work.limit());
     work.run("range of T", &[Asked { job: job.clone(), guess: 1.0 }], watch)?;

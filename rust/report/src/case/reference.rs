@@ -8,7 +8,7 @@ use crate::jobs::execute::Outcome;
 use crate::jobs::job::Job;
 use crate::jobs::pool::Asked;
 use crate::jobs::user_case::Measured;
-use msdd_choice::settings::Settings;
+use msdd_autotune::settings::Settings;
 use serde::Serialize;
 
 /// How many times finer than the case's own cells, and shorter than the shortest steps of the ladder, the run is; the next is

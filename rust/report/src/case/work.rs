@@ -8,7 +8,7 @@ use crate::jobs::job::{CaseJob, CaseProgram, Job};
 use crate::jobs::pool::{self, Asked, Progress, Records};
 use crate::jobs::user_case::Measured;
 use crate::settings::Settings;
-use msdd_choice::user_case::UserCase;
+use msdd_autotune::user_case::UserCase;
 
 /// Processor time after which a run of the ladder, or a choice, is stopped [s]; of a quick report.
 const LIMITS: [u64; 2] = [600, 120];

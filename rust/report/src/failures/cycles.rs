@@ -4,10 +4,10 @@ use crate::jobs::job::{Job, Part, SolverJob};
 use crate::jobs::pool::Records;
 use crate::read_text;
 use crate::settings::Settings;
-use msdd_reference::compare::{reference_sub_regions, sub_regions};
-use msdd_reference::packings::Reference;
-use msdd_reference::series::at;
-use msdd_reference::series::statistics;
+use msdd_dem_reference::compare::{reference_sub_regions, sub_regions};
+use msdd_dem_reference::packings::Reference;
+use msdd_dem_reference::series::at;
+use msdd_dem_reference::series::statistics;
 use serde::Serialize;
 use std::path::Path;
 

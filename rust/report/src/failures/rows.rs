@@ -7,7 +7,7 @@ use crate::jobs::job::{Job, SolverJob};
 use crate::jobs::pool::Records;
 use crate::plan;
 use crate::settings::Settings;
-use msdd_reference::solver::Run;
+use msdd_dem_reference::solver::Run;
 use serde::{Deserialize, Serialize};
 
 /// A configuration at or beyond the edge of a method, and how its run ended.

@@ -3,8 +3,8 @@
 use crate::jobs::job::{BOX, Job, PROBES, SolverJob};
 use crate::jobs::pool::Records;
 use crate::settings::Settings;
-use msdd_reference::series::{at, largest};
-use msdd_reference::solver::Run;
+use msdd_dem_reference::series::{at, largest};
+use msdd_dem_reference::solver::Run;
 use serde::Serialize;
 
 /// Error in time of a coupling scheme with fixed steps, for case H on 25 x 8 cells, against a run with adaptive steps and a

@@ -99,7 +99,7 @@ impl Cache {
                 CaseProgram::Solver(_) => self.add_programs(&mut parts)?,
                 CaseProgram::Choice(_) => {
                     self.add_programs(&mut parts)?;
-                    parts.push(self.hash("rust/choice/src")?);
+                    parts.push(self.hash("rust/autotune/src")?);
                 }
                 CaseProgram::Discs(_) => {
                     for input in ENGINE {

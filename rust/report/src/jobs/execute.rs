@@ -3,11 +3,11 @@
 use super::{setup, spheres, user_case};
 use crate::jobs::job::{CaseJob, CaseProgram, Job, SolverJob, SpheresJob, ToolJob};
 use crate::{ReportError, read_text, write_text};
+use msdd_autotune::ChoiceError;
 use msdd_case::tables;
-use msdd_choice::ChoiceError;
+use msdd_dem_reference::solver;
+use msdd_dem_reference::solver::Run;
 use msdd_files::Lock;
-use msdd_reference::solver;
-use msdd_reference::solver::Run;
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};

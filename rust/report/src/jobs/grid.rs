@@ -3,7 +3,7 @@
 
 use crate::ReportError;
 use crate::jobs::job::{BOX, MESH, Part};
-use msdd_reference::solver::nonuniform;
+use msdd_dem_reference::solver::nonuniform;
 use std::fmt::Write;
 use std::path::Path;
 

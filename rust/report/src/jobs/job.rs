@@ -1,6 +1,6 @@
 //! One configuration to run. A job contains everything that its result depends on, except the files, which the cache hashes.
 
-use msdd_choice::settings::Settings;
+use msdd_autotune::settings::Settings;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -13,7 +13,7 @@ pub const BOX: [f64; 2] = [2.15, 0.645];
 pub const PROBES: [[f64; 2]; 3] = [[0.3225, 0.3225], [1.075, 0.3225], [1.8275, 0.3225]];
 
 /// Source folders of the discrete element engine and the programs that use it; results depend on them.
-pub const ENGINE: [&str; 4] = ["rust/dem", "rust/rve", "rust/reference", "Cargo.lock"];
+pub const ENGINE: [&str; 4] = ["rust/dem", "rust/rve", "rust/dem_reference", "Cargo.lock"];
 
 /// The part of the box that is computed. Where the box is cut, the boundary is a plane of symmetry.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]

@@ -141,7 +141,7 @@ mod tests {
         assert!(text("system/blockMeshDict").contains("(10 3 1)"));
         assert!(text("constant/granularProperties").ends_with("builtin:paper; }\n"));
         assert!(!text("0/T").contains("\"../../"));
-        assert_eq!(msdd_reference::solver::nonuniform(&text("0/porosity")).unwrap().len(), 30);
+        assert_eq!(msdd_dem_reference::solver::nonuniform(&text("0/porosity")).unwrap().len(), 30);
         assert!(text("system/controlDict").contains("deltaT 1e-2;"));
         std::fs::remove_dir_all(&folder).unwrap();
     }

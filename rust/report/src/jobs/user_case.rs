@@ -2,17 +2,17 @@
 
 use crate::jobs::job::{CaseDiscs, CaseJob, CaseProgram, CaseRun};
 use crate::{ReportError, read_text};
+use msdd_autotune::quantity::Quantity;
+use msdd_autotune::record;
+use msdd_autotune::series::Series;
+use msdd_autotune::settings::{Level, Settings};
+use msdd_autotune::trial::{self, Purpose, read_outcome};
+use msdd_autotune::user_case::UserCase;
+use msdd_autotune::{ChoiceError, trial::check_ours};
 use msdd_case::tables;
-use msdd_choice::quantity::Quantity;
-use msdd_choice::record;
-use msdd_choice::series::Series;
-use msdd_choice::settings::{Level, Settings};
-use msdd_choice::trial::{self, Purpose, read_outcome};
-use msdd_choice::user_case::UserCase;
-use msdd_choice::{ChoiceError, trial::check_ours};
+use msdd_dem_reference::model::SUB_REGIONS;
+use msdd_dem_reference::results::{Results, Table};
 use msdd_files::{list, write};
-use msdd_reference::model::SUB_REGIONS;
-use msdd_reference::results::{Results, Table};
 use serde::{Deserialize, Serialize};
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};

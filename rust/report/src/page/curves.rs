@@ -6,10 +6,10 @@ use crate::report::Made;
 use crate::studies::detail::{WALL_COLUMNS, WALLS};
 use crate::studies::other_cases::WAYS;
 use crate::studies::spheres::Spheres;
-use msdd_reference::packings::Reference;
-use msdd_reference::results::Results;
-use msdd_reference::series::{at, largest, statistics};
-use msdd_reference::solver::{COLUMNS, Run};
+use msdd_dem_reference::packings::Reference;
+use msdd_dem_reference::results::Results;
+use msdd_dem_reference::series::{at, largest, statistics};
+use msdd_dem_reference::solver::{COLUMNS, Run};
 use serde_json::{Value, json};
 use std::fmt::Write;
 

@@ -4,10 +4,10 @@ use super::curves::configurations;
 use super::names::case_name;
 use crate::plan::FAMILIES;
 use crate::report::Made;
+use msdd_dem_reference::compare::{reference_start, reference_sub_regions, sub_regions};
+use msdd_dem_reference::series::{largest, root_mean_square, spread, statistics};
+use msdd_dem_reference::solver::Run;
 use msdd_draw::{Cells, Map, Sheet, maps};
-use msdd_reference::compare::{reference_start, reference_sub_regions, sub_regions};
-use msdd_reference::series::{largest, root_mean_square, spread, statistics};
-use msdd_reference::solver::Run;
 use serde_json::{Value, json};
 
 /// Quantity, label, factor, digits.

@@ -14,8 +14,8 @@ use crate::plan::{CHARTED, FAMILIES};
 use crate::report::Made;
 use crate::studies::front::{Point, stairs};
 use crate::studies::{known, requests, spheres};
+use msdd_dem_reference::packings::CASES;
 use msdd_draw::page;
-use msdd_reference::packings::CASES;
 use serde_json::json;
 use std::collections::BTreeMap;
 

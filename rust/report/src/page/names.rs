@@ -1,6 +1,6 @@
 //! Names of cases on the pages.
 
-use msdd_reference::packings::CASES;
+use msdd_dem_reference::packings::CASES;
 
 /// Name of the case in a folder; those without expansion have a star.
 pub(super) fn case_name(case: &str) -> &str {

@@ -5,9 +5,9 @@ use crate::plan::{CHARTED, FAMILIES};
 use crate::report::Made;
 use crate::studies::detail::REGIONS;
 use crate::studies::known::KnownStates;
+use msdd_dem_reference::results::Table;
+use msdd_dem_reference::solver::{COLUMNS, Run};
 use msdd_draw::{Cells, Map, Sheet, maps};
-use msdd_reference::results::Table;
-use msdd_reference::solver::{COLUMNS, Run};
 use serde_json::{Value, json};
 
 pub fn all(made: &Made) -> Value {

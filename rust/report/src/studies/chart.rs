@@ -7,10 +7,10 @@ use crate::jobs::job::{Job, SolverJob};
 use crate::jobs::pool::{Asked, Records};
 use crate::plan::{self, CHARTED, Configuration, CostSource, FAMILIES};
 use crate::settings::Settings;
-use msdd_reference::compare::{Errors, errors};
-use msdd_reference::packings::{Reference, pressure_range};
-use msdd_reference::series::statistics;
-use msdd_reference::solver::Run;
+use msdd_dem_reference::compare::{Errors, errors};
+use msdd_dem_reference::packings::{Reference, pressure_range};
+use msdd_dem_reference::series::statistics;
+use msdd_dem_reference::solver::Run;
 use serde::Serialize;
 
 /// Errors for which the cheapest configuration is named [% of the range].

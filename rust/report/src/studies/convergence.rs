@@ -5,7 +5,7 @@ use crate::jobs::execute::Outcome;
 use crate::jobs::job::{Job, SolverJob};
 use crate::jobs::pool::{Asked, Records};
 use crate::settings::Settings;
-use msdd_reference::series::{at, root_mean_square};
+use msdd_dem_reference::series::{at, root_mean_square};
 use serde::Serialize;
 
 /// Function object that writes the mean over the box, as a single sub-region.

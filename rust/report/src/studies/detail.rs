@@ -7,14 +7,14 @@ use crate::jobs::pool::{Asked, Records};
 use crate::plan::{self, CHARTED, Configuration, FAMILIES};
 use crate::settings::Settings;
 use crate::studies::other_cases::grain_value;
-use msdd_reference::solver::Run;
+use msdd_dem_reference::solver::Run;
 use std::collections::BTreeMap;
 
 /// Function object that writes time, mean pressure, and for each wall mean pressure and normal stress \[Pa\] in the cells at it.
 pub const WALLS: &str = "watchWalls";
 /// Columns of the normal stress at left, right, bottom and top in the rows of [`WALLS`].
 pub const WALL_COLUMNS: [usize; 4] = [3, 5, 7, 9];
-/// Function object that writes sub-regions at several times: time, x and y index, [`msdd_reference::solver::COLUMNS`].
+/// Function object that writes sub-regions at several times: time, x and y index, [`msdd_dem_reference::solver::COLUMNS`].
 pub const REGIONS: &str = "watchRegions";
 
 /// The case from which the initial state is read: its grains do not expand, so their state never changes.

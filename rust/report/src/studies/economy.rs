@@ -4,10 +4,10 @@ use crate::jobs::execute::Outcome;
 use crate::jobs::job::{Job, Part, SolverJob};
 use crate::jobs::pool::{Asked, Records};
 use crate::settings::Settings;
-use msdd_reference::compare::errors;
-use msdd_reference::packings::{CASES, Reference, temperature_range};
-use msdd_reference::series::{at, largest};
-use msdd_reference::solver::Run;
+use msdd_dem_reference::compare::errors;
+use msdd_dem_reference::packings::{CASES, Reference, temperature_range};
+use msdd_dem_reference::series::{at, largest};
+use msdd_dem_reference::solver::Run;
 use serde::Serialize;
 
 /// One way to compute a case: counts and cost of the run of the first packing, errors over all packings.

@@ -5,8 +5,8 @@ use crate::jobs::job::{Job, SolverJob};
 use crate::jobs::pool::{Asked, Records};
 use crate::plan::{self, CHARTED, FAMILIES};
 use crate::settings::Settings;
-use msdd_reference::compare::errors;
-use msdd_reference::packings::Reference;
+use msdd_dem_reference::compare::errors;
+use msdd_dem_reference::packings::Reference;
 use serde::Serialize;
 
 /// Seed of the packing that is used.

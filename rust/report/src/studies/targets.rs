@@ -2,7 +2,7 @@
 
 use crate::plan::FAMILIES;
 use crate::studies::validation::Validated;
-use msdd_reference::compare::FieldError;
+use msdd_dem_reference::compare::FieldError;
 use serde::Serialize;
 
 /// A target and the value that was reached.

@@ -4,10 +4,10 @@ use crate::jobs::execute::{Outcome, Record};
 use crate::jobs::pool::Records;
 use crate::plan;
 use crate::settings::Settings;
-use msdd_reference::compare::{Errors, errors};
-use msdd_reference::packings::{Reference, temperature_range};
-use msdd_reference::series::statistics;
-use msdd_reference::solver::Run;
+use msdd_dem_reference::compare::{Errors, errors};
+use msdd_dem_reference::packings::{Reference, temperature_range};
+use msdd_dem_reference::series::statistics;
+use msdd_dem_reference::solver::Run;
 use serde::Serialize;
 use std::collections::BTreeMap;
 

@@ -371,7 +371,7 @@ fn sliding_ends_where_grains_lose_contact() {
     assert!(after[JAMMING] > state[JAMMING] && stress[0] >= 0.0, "{after:?} {stress:?}");
 }
 
-/// Grains that have parted touch again later, by the settling times how far they parted, or by that of 0.02 when they parted
+/// Grains that have parted touch again later, by the densification times how far they parted, or by that of 0.02 when they parted
 /// further, in one strain as in many.
 #[test]
 fn grains_that_part_settle() {
@@ -386,12 +386,12 @@ fn grains_that_part_settle() {
         state[JAMMING] / start[JAMMING] - 1.0
     };
     assert_eq!(parted(0.001, 1), 0.0);
-    let settling = core.law.settling;
-    assert!(settling > 0.01);
+    let opening_densification = core.law.opening_densification;
+    assert!(opening_densification > 0.01);
     for (compression, share) in [(-0.01, 0.01), (-0.02, 0.02), (-0.05, 0.02)] {
         let once = parted(compression, 1);
         // The gap from which φ_J is found shrinks with φ_J itself.
-        assert!((once / (settling * share) - 1.0).abs() < 0.1, "{compression}: {once}");
+        assert!((once / (opening_densification * share) - 1.0).abs() < 0.1, "{compression}: {once}");
         assert!((parted(compression, 500) / once - 1.0).abs() < 0.1, "{compression}");
     }
     // The way back changes nothing.

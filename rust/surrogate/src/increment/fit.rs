@@ -50,7 +50,7 @@ pub fn parameters(law: &Law) -> DVector<f64> {
         law.dilatancy_of_looseness / SIZE,
         law.looseness[1] / (SIZE * SIZE),
         law.looseness[2] / SIZE,
-        SIZE * law.settling,
+        SIZE * law.opening_densification,
     ])
 }
 
@@ -67,7 +67,7 @@ pub fn law(x: &DVector<f64>) -> Law {
         shear: [positive(4, 0.0, 1e6), positive(5, 1e-9, 1e6), positive(6, 0.0, 1e6)],
         elements: [element(share, 8, x[10]), element(1.0 - share, 9, x[11])],
         dilatancy_of_looseness: SIZE * x[12],
-        settling: (x[15] / SIZE).clamp(0.0, 1.0),
+        opening_densification: (x[15] / SIZE).clamp(0.0, 1.0),
     }
 }
 
@@ -84,7 +84,7 @@ pub fn beginning() -> Law {
         shear: [0.4, 0.02, 0.2],
         elements: [element(0.6, 0.05, 0.0), element(0.4, 0.2, 0.0)],
         dilatancy_of_looseness: 5.0,
-        settling: 0.05,
+        opening_densification: 0.05,
     }
 }
 const _: () = assert!(ELEMENTS == 2);

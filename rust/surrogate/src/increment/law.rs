@@ -25,8 +25,8 @@ pub struct Law {
     /// Growth of all elements' dilatancy with z.
     pub dilatancy_of_looseness: f64,
     /// Relative growth of φ_J by a unit of v by which grains that have lost contact part, up to `SETTLED` [0 to 1].
-    #[serde(default)]
-    pub settling: f64,
+    #[serde(default, rename = "settling")]
+    pub opening_densification: f64,
 }
 
 /// An element slides when its part of the deviator exceeds `strength` times A.
@@ -249,7 +249,7 @@ impl Law {
             open.where_above(far, open, far)
         };
         let wider = gap(state.compression) - gap(tried);
-        let loss = loss + wider.where_above(zero, wider, zero).times(self.settling);
+        let loss = loss + wider.where_above(zero, wider, zero).times(self.opening_densification);
         let compression = tried - loss;
         let jamming = state.jamming + state.jamming * loss * compression.plus(1.0).inverse();
         let next = Elastic { jamming, compression, shear, strength: state.strength };
@@ -295,7 +295,12 @@ impl Law {
                 self.dilatancy_of_looseness.abs() <= 1e3,
                 "-1e3 to 1e3",
             ),
-            ("settling", self.settling, (0.0..=1.0).contains(&self.settling), "0 to 1"),
+            (
+                "settling",
+                self.opening_densification,
+                (0.0..=1.0).contains(&self.opening_densification),
+                "0 to 1",
+            ),
         ];
         if let Some((key, value, _, allowed)) = numbers.iter().find(|(_, _, good, _)| !good) {
             return field(&format!("law.{key}"), value, allowed);

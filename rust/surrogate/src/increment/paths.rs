@@ -7,14 +7,14 @@ use crate::surrogate::{Answer, Increment, MAX_STATE, StateLanes};
 use crate::tracks::{Point, Track};
 
 /// Largest strain that is applied in one part.
-const PART: f64 = 1e-3;
-/// Largest number of parts of a step.
-const MAX_PARTS: f64 = 20.0;
+const SUBSTEP: f64 = 1e-3;
+/// Largest number of substeps of a step.
+const MAX_SUBSTEPS: f64 = 20.0;
 
-/// Number of parts in which the largest of these strains is applied.
-pub(super) fn parts(strains: impl IntoIterator<Item = f64>) -> f64 {
+/// Number of substeps in which the largest of these strains is applied.
+pub(super) fn substeps(strains: impl IntoIterator<Item = f64>) -> f64 {
     let largest = strains.into_iter().fold(0.0f64, |a, b| a.max(b.abs()));
-    (largest / PART).ceil().clamp(1.0, MAX_PARTS)
+    (largest / SUBSTEP).ceil().clamp(1.0, MAX_SUBSTEPS)
 }
 
 /// The law's states of one track: number k as `Step::from`.
@@ -48,7 +48,7 @@ fn follow_block(core: &Core, tracks: &[Track]) -> Vec<States> {
     let longest = tracks.iter().map(|track| track.steps.len()).max().unwrap_or(0);
     for k in 0..longest {
         let step = |lane: usize| tracks.get(lane).and_then(|track| track.steps.get(k));
-        let parts = parts((0..LANES).filter_map(step).flat_map(|step| step.strain));
+        let substeps = substeps((0..LANES).filter_map(step).flat_map(|step| step.strain));
         let mut block: StateLanes = [[0.0; LANES]; MAX_STATE];
         for lane in 0..LANES {
             let from = step(lane).map_or(0, |step| step.from);
@@ -56,10 +56,10 @@ fn follow_block(core: &Core, tracks: &[Track]) -> Vec<States> {
             block.iter_mut().zip(state).for_each(|(column, value)| column[lane] = value);
         }
         let mut after = Answer::default();
-        for part in 0..parts as u32 {
+        for part in 0..substeps as u32 {
             let lanes = |k: usize| {
-                // Equal parts of the whole, so that they compose to it.
-                let of = |strain: f64| strain / (parts + strain * f64::from(part));
+                // Equal substeps of the whole, so that they compose to it.
+                let of = |strain: f64| strain / (substeps + strain * f64::from(part));
                 std::array::from_fn(|lane| step(lane).map_or(0.0, |step| of(step.strain[k])))
             };
             let xy: [f64; LANES] = lanes(3);

@@ -20,7 +20,7 @@ pub fn core() -> Core {
             shear: [0.357, 0.0162, 0.15],
             elements: [element(0.6, 0.05, -0.034), element(0.4, 0.245, -0.196)],
             dilatancy_of_looseness: 7.68,
-            settling: 0.05,
+            opening_densification: 0.05,
         },
         readout: Readout { overlap: [0.045, 1.85, -0.6, 0.5, 1.2], fabric: [0.15, 1.0, -0.7, -2.0] },
         ranges: [super::core::ANY; super::core::COLUMNS + 1],

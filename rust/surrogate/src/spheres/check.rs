@@ -14,9 +14,9 @@ impl Law {
     /// [`SurrogateError::Field`] with key, value and what is allowed.
     pub fn check(&self) -> Result<(), SurrogateError> {
         let [b0, b1, b2, b3, b4, b5, b6] = self.bulk;
-        let [of_density, shear_power, of_free] = self.shear;
+        let [of_density, shear_power, of_unmobilised] = self.shear;
         let [c0, c1, c2, c3] = self.collapse;
-        let [s0, s1, s2, s3] = self.settling;
+        let [s0, s1, s2, s3] = self.opening_densification;
         let z0 = self.least_contacts;
         let [per_anisotropy, usual] = self.fabric;
         let mut numbers = vec![
@@ -30,7 +30,7 @@ impl Law {
             ("bulk[6]", b6, (-10.0..=1.0).contains(&b6), "-10 to 1"),
             ("shear[0]", of_density, of_density.abs() <= LARGE, "-1e4 to 1e4"),
             ("shear[1]", shear_power, shear_power.abs() <= 1.0, "-1 to 1"),
-            ("shear[2]", of_free, of_free.abs() <= 5.0, "-5 to 5"),
+            ("shear[2]", of_unmobilised, of_unmobilised.abs() <= 5.0, "-5 to 5"),
             ("least_contacts", z0, (0.0..=6.0).contains(&z0), "0 to 6"),
             ("forgetting", self.forgetting, (0.0..=1.0).contains(&self.forgetting), "0 to 1"),
             ("mobilising", self.mobilising, (0.0..=100.0).contains(&self.mobilising), "0 to 100"),
@@ -48,12 +48,12 @@ impl Law {
         ];
         numbers.extend(self.dilatancy.iter().map(|d| ("dilatancy", *d, d.abs() <= LARGE, "-1e4 to 1e4")));
         for element in &self.elements {
-            let Element { stiffness, strength, growth, free, hardening, power } = *element;
+            let Element { stiffness, strength, growth, unmobilised, hardening, power } = *element;
             numbers.extend([
                 ("element.stiffness", stiffness, (1e-6..=1e6).contains(&stiffness), "1e-6 to 1e6"),
                 ("element.strength", strength, (1e-6..=20.0).contains(&strength), "1e-6 to 20"),
                 ("element.growth", growth, growth.abs() <= LARGE, "-1e4 to 1e4"),
-                ("element.free", free, free.abs() <= 10.0, "-10 to 10"),
+                ("element.free", unmobilised, unmobilised.abs() <= 10.0, "-10 to 10"),
                 ("element.hardening", hardening, hardening.abs() <= 100.0, "-100 to 100"),
                 ("element.power", power, (-2.0..=1.0).contains(&power), "-2 to 1"),
             ]);

@@ -71,8 +71,8 @@ fn share<N: Number>(compression: N) -> N {
 
 /// F, with the part of the friction that is not mobilised.
 #[inline(always)]
-fn forgets<N: Number>(free: N) -> N {
-    let mut power = free.not_below(MIN_FREE).inverse().times(KEEPING);
+fn forgets<N: Number>(unmobilised: N) -> N {
+    let mut power = unmobilised.not_below(MIN_FREE).inverse().times(KEEPING);
     for _ in 0..SHARPLY {
         power = power.squared();
     }
@@ -107,7 +107,7 @@ impl Contacts {
     /// z̄ and F of a state.
     #[inline(always)]
     pub fn usual<N: Number>(&self, state: &State<N>) -> Usual<N> {
-        Usual { contacts: self.sheared(state), forgets: forgets(state.free()) }
+        Usual { contacts: self.sheared(state), forgets: forgets(state.unmobilised()) }
     }
 
     /// z̄ of a state.
@@ -124,7 +124,7 @@ impl Contacts {
 
     /// z of a packing that was not strained since it was made.
     pub fn packed(&self, state: &State) -> f64 {
-        let more = self.surplus * state.free() * share(state.compression.max(0.0));
+        let more = self.surplus * state.unmobilised() * share(state.compression.max(0.0));
         (self.sheared(state) + more).clamp(CONTACTS[0], CONTACTS[1])
     }
 
@@ -147,7 +147,7 @@ impl Contacts {
         let [of_compression, of_shear] = self.fading;
         let before = from.compression.not_below(MIN_COMPRESSION);
         let after = to.compression.not_below(MIN_COMPRESSION);
-        let free = from.free();
+        let unmobilised = from.unmobilised();
         let distortion = deviator(*strain);
         let length = contraction(&distortion, &distortion).plus(TINY).root() * after.inverse();
         let sheared = length.times(-of_shear).not_below(-MAX_EXPONENT);
@@ -160,7 +160,7 @@ impl Contacts {
         // Half of what is new has seen the shear.
         let seen = (forgets * sheared).times(0.5).exp();
         let left = (forgets * (sheared + has.where_above(had, faded, opened))).exp();
-        [left, (has - had) * free * has.where_above(had, seen, keeps)]
+        [left, (has - had) * unmobilised * has.where_above(had, seen, keeps)]
     }
 
     /// Numbers for [`super::law::Law::check`]: name, value, whether it is allowed, and what is.

@@ -38,7 +38,8 @@ pub struct Law {
     pub mobilising: f64,
     /// Loss of compression by a unit of opening: s₀/(1 + (v/v₀)²) + s₃ (1 − g), v₀ = s₁ e^(−s₂ x). The first is that of packings
     /// that are about to lose their load, the second that of all whose friction is mobilised.
-    pub settling: [f64; 4],
+    #[serde(rename = "settling")]
+    pub opening_densification: [f64; 4],
     /// Stress ratio of the fabric over the deviator of the fabric, and its usual part of the stress ratio, for packings whose
     /// fabric is not known.
     pub fabric: [f64; 2],
@@ -57,7 +58,8 @@ pub struct Element {
     /// The stress ratio is at most `strength` e^(`growth` x + `free` g) min(√u, 1)^`hardening`.
     pub strength: f64,
     pub growth: f64,
-    pub free: f64,
+    #[serde(rename = "free")]
+    pub unmobilised: f64,
     pub hardening: f64,
     /// The stress ratio goes with this power of v where the packing is compressed without shear: 0 where new contacts have the
     /// directions of the old ones, −1 where none are made.
@@ -110,23 +112,24 @@ impl Law {
 
     /// A: the pressure over E* without shear.
     #[inline(always)]
-    pub fn pressure<N: Number>(&self, compression: N, x: N, free: N) -> N {
+    pub fn pressure<N: Number>(&self, compression: N, x: N, unmobilised: N) -> N {
         let (v, u) = Self::compressions(compression);
         let [b0, b1, b2, b3, b4, b5, b6] = self.bulk;
         let hardly = v.times(1.0 / HARDLY).plus(1.0).inverse();
         let contacts = u.root().plus(1.0).ln();
         let exponent = x.times(b1)
-            + free * hardly.times(b6).plus(b2)
-            + contacts * (free.times(b4) + x.times(b5)).plus(b3);
+            + unmobilised * hardly.times(b6).plus(b2)
+            + contacts * (unmobilised.times(b4) + x.times(b5)).plus(b3);
         (exponent.exp() * v * v.root()).times(b0)
     }
 
     /// The factor that the stiffnesses of all elements of friction have beside [`Element::stiffness`], by ln u.
     #[inline(always)]
-    pub(super) fn stiffening<N: Number>(&self, x: N, free: N, loaded: N) -> N {
-        let [of_density, power, of_free] = self.shear;
-        let exponent =
-            (x.times(of_density) + free.times(of_free)).not_below(-MAX_EXPONENT).not_above(MAX_EXPONENT);
+    pub(super) fn stiffening<N: Number>(&self, x: N, unmobilised: N, loaded: N) -> N {
+        let [of_density, power, of_unmobilised] = self.shear;
+        let exponent = (x.times(of_density) + unmobilised.times(of_unmobilised))
+            .not_below(-MAX_EXPONENT)
+            .not_above(MAX_EXPONENT);
         (exponent + loaded.times(power)).exp()
     }
 
@@ -147,9 +150,11 @@ impl Law {
 
     /// Strength of an element, by ln u.
     #[inline(always)]
-    pub(super) fn strength<N: Number>(&self, k: usize, x: N, free: N, loaded: N) -> N {
-        let Element { strength, growth, free: of_free, hardening, .. } = self.elements[k];
-        let exponent = x.times(growth) + free.times(of_free) + loaded.not_above(0.0).times(0.5 * hardening);
+    pub(super) fn strength<N: Number>(&self, k: usize, x: N, unmobilised: N, loaded: N) -> N {
+        let Element { strength, growth, unmobilised: of_unmobilised, hardening, .. } = self.elements[k];
+        let exponent = x.times(growth)
+            + unmobilised.times(of_unmobilised)
+            + loaded.not_above(0.0).times(0.5 * hardening);
         exponent.not_below(-MAX_EXPONENT).not_above(MAX_EXPONENT).exp().times(strength)
     }
 
@@ -164,9 +169,9 @@ impl Law {
     /// σ over E*, compression positive.
     #[inline(always)]
     pub fn stress<N: Number>(&self, state: &State<N>) -> Tensor<N> {
-        let (x, free) = (state.density(), state.free());
+        let (x, unmobilised) = (state.density(), state.unmobilised());
         let (least, zero) = (N::constant(MIN_COMPRESSION), N::constant(0.0));
-        let pressure = self.pressure(state.compression, x, free);
+        let pressure = self.pressure(state.compression, x, unmobilised);
         let pressure = state.compression.where_above(least, pressure, zero);
         // The sums with zero make it 0, and not −0, where there is no pressure.
         let [xx, yy, zz, xy, xz, yz] = scaled(&self.deviator(&state.ratio()), pressure);
@@ -184,7 +189,7 @@ impl Law {
         six!(k => ratio[k] + second[k].times(self.lode))
     }
 
-    /// State after a strain, in `parts`. `half` is half of the cell's rotation.
+    /// State after a strain, in substeps. `half` is half of the cell's rotation.
     #[inline(always)]
     pub fn advanced<N: Number>(
         &self,
@@ -199,11 +204,11 @@ impl Law {
         let [xx, yy, zz, xy, xz, yz] = strain.cell;
         let cell = [xx, yy, zz, xy.times(0.5), xz.times(0.5), yz.times(0.5)];
         let square = square(&cell);
-        let count = parts(state.compression.value(), strain.thermal, six!(k => strain.cell[k].value()));
+        let count = substeps(state.compression.value(), strain.thermal, six!(k => strain.cell[k].value()));
         let share = N::Values::all(1.0) / count;
         let mut usual = self.contacts.usual(&next);
-        for number in 0..MAX_PARTS {
-            // Cells whose parts are fewer stay as they are.
+        for number in 0..MAX_SUBSTEPS {
+            // Cells with fewer substeps stay as they are.
             let number = N::Values::all(f64::from(number));
             if !count.any_greater(number) {
                 break;
@@ -228,13 +233,13 @@ impl Law {
     /// ln u where it is reached.
     #[inline(always)]
     fn lost<N: Number>(&self, state: &State<N>, loaded: N, (along, length): (&Tensor<N>, N)) -> N {
-        let (x, free) = (state.density(), state.free());
+        let (x, unmobilised) = (state.density(), state.unmobilised());
         let [c0, c1, c2, c3] = self.collapse;
-        let bound = free.times(-1.0).plus(1.0).not_below(MIN_MOBILISED);
+        let bound = unmobilised.times(-1.0).plus(1.0).not_below(MIN_MOBILISED);
         let dense = x.times(-c1).not_below(-MAX_EXPONENT).not_above(MAX_EXPONENT);
         let collapse = (dense - loaded.times(c2) + bound.ln().times(c3)).exp().times(c0);
         let [d0, d1, d2, d3, d4] = self.dilatancy;
-        let always = (x.times(d1) + free.times(d2)).plus(d0) + collapse;
+        let always = (x.times(d1) + unmobilised.times(d2)).plus(d0) + collapse;
         let climbs = scaled(&state.ratios[FABRIC], x.times(d4).plus(d3));
         always - contraction(&climbs, along) * length.inverse()
     }
@@ -257,14 +262,14 @@ impl Law {
         let grains = thermal * three + thermal * thermal * (thermal + three);
         let denser = cell.times(-1.0).plus_values(grains) * cell.plus(1.0).inverse();
         let tried = state.compression + state.compression.plus(1.0) * denser;
-        let (x, free) = (state.density(), state.free());
+        let (x, unmobilised) = (state.density(), state.unmobilised());
         let before = state.compression.not_below(MIN_COMPRESSION);
         let after = tried.not_below(MIN_COMPRESSION);
         let over = after.inverse();
         let opening = after * before.inverse();
         let distortion = deviator(strain);
         let loaded = Self::loaded(after);
-        let stiffening = self.stiffening(x, free, loaded);
+        let stiffening = self.stiffening(x, unmobilised, loaded);
         let opened = opening.ln();
         let mut ratios = state.ratios;
         let zero = N::constant(0.0);
@@ -272,7 +277,7 @@ impl Law {
         // Lengths of the stress ratios of friction, and their strengths.
         let mut limits = [(zero, zero); FABRIC];
         for (k, ratio) in ratios.iter_mut().enumerate() {
-            let most = self.strength(k, x, free, loaded).by(Self::factor(k, state.strength));
+            let most = self.strength(k, x, unmobilised, loaded).by(Self::factor(k, state.strength));
             if k == FABRIC {
                 let stiffness = self.turning(usual.bearing(state.coordination)) * over_strain(after, usual);
                 *ratio = reoriented(ratio, &distortion, stiffness, most, self.forgetting);
@@ -297,10 +302,10 @@ impl Law {
         // What the stress of the fabric does is stored in the compression.
         let middle = sum(&state.ratios[FABRIC], &ratios[FABRIC]);
         loss = loss + contraction(&middle, &distortion).times(0.5);
-        let [s0, s1, s2, s3] = self.settling;
+        let [s0, s1, s2, s3] = self.opening_densification;
         let usual = Self::exponential(x, -s2).times(s1);
         let level = after * usual.inverse();
-        let always = free.times(-s3).plus(s3);
+        let always = unmobilised.times(-s3).plus(s3);
         let settled = (state.compression - tried) * ((level * level).plus(1.0).inverse().times(s0) + always);
         let loss = (loss + state.compression.where_above(tried, settled, zero)).not_above_number(tried);
         let compression = tried - loss;
@@ -310,16 +315,17 @@ impl Law {
         let jamming = state.jamming + state.jamming * loss * compression.plus(1.0).inverse();
         // Where packings are about to lose their load, v is small beside any sliding.
         let soft = after.plus(SOFT).inverse();
-        let left = free * (sliding * soft).times(-self.mobilising).not_below(-MAX_EXPONENT).exp();
+        let left = unmobilised * (sliding * soft).times(-self.mobilising).not_below(-MAX_EXPONENT).exp();
         let mobilised = left.times(-1.0).plus(1.0);
         // Strengths are those of the state that is reached, if it is weaker: else the next strain, however small, would change the
         // stress.
         let denser = jamming - state.jamming;
-        let freer = left - free;
+        let freer = left - unmobilised;
         let loosened = (loaded + kept - opened).not_above(0.0) - loaded.not_above(0.0);
         for (k, (length, most)) in limits.into_iter().enumerate() {
-            let Element { growth, free: of_free, hardening, .. } = self.elements[k];
-            let exponent = denser.times(growth) + freer.times(of_free) + loosened.times(0.5 * hardening);
+            let Element { growth, unmobilised: of_unmobilised, hardening, .. } = self.elements[k];
+            let exponent =
+                denser.times(growth) + freer.times(of_unmobilised) + loosened.times(0.5 * hardening);
             let limit = (most * near_exponential(exponent)).not_above_number(most);
             let one = N::constant(1.0);
             let factor = length.where_above(limit.times(SLACK), limit * length.inverse(), one);
@@ -383,20 +389,20 @@ const MIN_RATE: f64 = 1e-6;
 /// The largest such exponent: it forgets all.
 const MAX_RATE: f64 = 30.0;
 
-/// The size of a part of a strain over the elastic compression, at most; as long as there are not more than [`MAX_PARTS`].
-const PART: f64 = 0.1;
-const MAX_PARTS: u32 = 16;
+/// The size of a part of a strain over the elastic compression, at most; as long as there are not more than [`MAX_SUBSTEPS`].
+const SUBSTEP: f64 = 0.1;
+const MAX_SUBSTEPS: u32 = 16;
 
-/// Number of equal parts in which a strain is applied: the more, the larger what it strains the contacts is beside the elastic
+/// Number of equal substeps in which a strain is applied: the more, the larger what it strains the contacts is beside the elastic
 /// compression v, or the gap that is left where grains do not touch (v below 0), because stress and strengths follow from v.
 #[inline(always)]
-fn parts<V: Arithmetic>(compression: V, thermal: V, cell: Tensor<V>) -> V {
+fn substeps<V: Arithmetic>(compression: V, thermal: V, cell: Tensor<V>) -> V {
     let [xx, yy, zz, xy, xz, yz] = cell;
-    let (half, one, most) = (V::all(0.5), V::all(1.0), V::all(f64::from(MAX_PARTS)));
+    let (half, one, most) = (V::all(0.5), V::all(1.0), V::all(f64::from(MAX_SUBSTEPS)));
     let contacts = [xx - thermal, yy - thermal, zz - thermal, half * xy, half * xz, half * yz];
     let size = contraction(&contacts, &contacts).sqrt();
     let v = compression.abs().at_least(V::all(MIN_COMPRESSION));
-    let needed = (size / (V::all(PART) * v)).at_most(most);
+    let needed = (size / (V::all(SUBSTEP) * v)).at_most(most);
     // The next integer.
     let (half, rounder) = (V::all(0.5), V::all(ROUNDER));
     let below = (needed - half + rounder) - rounder;

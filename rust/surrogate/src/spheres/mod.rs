@@ -40,7 +40,7 @@
 //! Mech. 138:263), and mobilised packings that hardly bear load give way beside it ([`law::Law::collapse`]). Together these make φ_J grow
 //! where a loose packing is sheared, and fall in dense ones that are sheared far. Where grains climb, they take at most nine tenths
 //! of the work of friction.
-//! Where a packing opens, it settles ([`law::Law::settling`]), most where it is about to lose its load: φ_J grows, too.
+//! Where a packing opens, it settles ([`law::Law::opening_densification`]), most where it is about to lose its load: φ_J grows, too.
 //!
 //! **Readouts.** Conductivities by contacts and by gas are functions of this state, see [`readout`].
 //!

@@ -88,7 +88,7 @@ pub fn gas_row<N: Number>(state: &State<N>) -> [N; 9] {
     let [s, v, n] = common(state);
     let y = state.solid().plus(-0.6).not_below(SOLID[0]).not_above(SOLID[1]);
     let hardly = v.times(1.0 / HARDLY).plus(1.0).inverse();
-    [N::constant(1.0), y, y * y, v, s * y, n, n * s, hardly, state.free()]
+    [N::constant(1.0), y, y * y, v, s * y, n, n * s, hardly, state.unmobilised()]
 }
 
 /// Compression at which grains that only rest on others conduct half as well as those that bear.

@@ -108,21 +108,21 @@ impl Law {
             mobilised,
             coordination: 0.0,
         };
-        let (x, free) = (state.density(), state.free());
+        let (x, unmobilised) = (state.density(), state.unmobilised());
         let loaded = Self::loaded(compression);
-        let over = 1.0 / self.pressure(compression, x, free).max(f64::MIN_POSITIVE);
+        let over = 1.0 / self.pressure(compression, x, unmobilised).max(f64::MIN_POSITIVE);
         if compression <= MIN_COMPRESSION || !load.iter().all(|part| (part * over).is_finite()) {
             return state;
         }
         let ratio = self.ratio_of(&load.map(|part| part * over));
         let [per_anisotropy, usual] = self.fabric;
-        let strengths: [f64; FABRIC] = std::array::from_fn(|k| self.strength(k, x, free, loaded));
+        let strengths: [f64; FABRIC] = std::array::from_fn(|k| self.strength(k, x, unmobilised, loaded));
         let strength = strengths.iter().sum::<f64>();
         let of_fabric = match fabric {
             Borne::Fabric(fabric) => fabric.map(|part| per_anisotropy * part),
             Borne::Usual => ratio.map(|part| usual * part),
         };
-        let most = self.strength(FABRIC, x, free, loaded);
+        let most = self.strength(FABRIC, x, unmobilised, loaded);
         state.ratios[FABRIC] = within(&of_fabric, most).0;
         let rest: Tensor = std::array::from_fn(|k| ratio[k] - state.ratios[FABRIC][k]);
         let size = contraction(&rest, &rest).sqrt();
@@ -137,7 +137,7 @@ impl Law {
             state.strength = needed.clamp(MAX_OF_FRICTION, MAX_STRENGTH);
             state.ratios[FABRIC] = within(&both, most * Self::factor(FABRIC, state.strength)).0;
         }
-        let stiffening = self.stiffening(x, free, loaded);
+        let stiffening = self.stiffening(x, unmobilised, loaded);
         let stiffness: [f64; FABRIC] = std::array::from_fn(|k| stiffening * self.elements[k].stiffness);
         let limits: [f64; FABRIC] =
             std::array::from_fn(|k| Self::factor(k, state.strength) * strengths[k] / stiffness[k]);

@@ -64,7 +64,7 @@ impl<N: Number> State<N> {
 
     /// g: the part of the friction that is not mobilised.
     #[inline(always)]
-    pub(super) fn free(&self) -> N {
+    pub(super) fn unmobilised(&self) -> N {
         self.mobilised.times(-1.0).plus(1.0).not_below(0.0).not_above(1.0)
     }
 

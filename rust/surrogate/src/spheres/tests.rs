@@ -441,11 +441,11 @@ fn parameters_are_the_numbers_of_the_law() {
     let mut law = beginning();
     assert_eq!(law_of(&parameters(&law)).elements[FABRIC].hardening, law.elements[FABRIC].hardening);
     law.bulk[1] *= 1.5;
-    law.settling[1] *= 2.0;
+    law.opening_densification[1] *= 2.0;
     let again = law_of(&parameters(&law));
     assert!(
         (again.bulk[1] - law.bulk[1]).abs() < 1e-12
-            && (again.settling[1] / law.settling[1] - 1.0).abs() < 1e-12
+            && (again.opening_densification[1] / law.opening_densification[1] - 1.0).abs() < 1e-12
     );
     // Bounds are kept, so that every file of a training can be read.
     let mut far = parameters(&law);

@@ -128,8 +128,8 @@ impl Track {
 }
 
 /// Largest strain that is applied in one part.
-const PART: f64 = 2.5e-4;
-const MAX_PARTS: f64 = 40.0;
+const SUBSTEP: f64 = 2.5e-4;
+const MAX_SUBSTEPS: f64 = 40.0;
 
 /// Takes the mean solid fraction of a recipe for that of its packings. Boxes of a thousand spheres that were made alike jam at solid
 /// fractions which scatter, and which tell little of what a box does when it is strained; those of recipes differ by more, and tell it.
@@ -169,17 +169,17 @@ const NEAR: f64 = 1e-6;
 
 /// The state after a step in which the cell yields along an axis until it has the stress of the data there, or the nearest that was
 /// found. The stress falls with the extension, so two extensions with too much and too little stress are searched for and then drawn
-/// together by the rule of Illinois, with bisection where it is slow. The number of parts is that of the recorded strain: if it depended
+/// together by the rule of Illinois, with bisection where it is slow. The number of substeps is that of the recorded strain: if it depended
 /// on the strain that is sought, the stress would jump with it.
 fn given_way(law: &Law, from: &State, step: &Step, axis: usize) -> State {
     let target = step.to.stress[axis];
-    let parts = parts(step.thermal, step.stretch);
+    let substeps = substeps(step.thermal, step.stretch);
     let near = NEAR * target.abs();
     let (mut best, mut least) = (*from, f64::INFINITY);
     let mut missed = |extension: f64| {
         let mut stretch = step.stretch;
         stretch[axis] = extension;
-        let state = in_parts(law, from, step.thermal, stretch, parts);
+        let state = in_substeps(law, from, step.thermal, stretch, substeps);
         let missed = law.stress(&state)[axis] - target;
         if missed.abs() < least {
             (best, least) = (state, missed.abs());
@@ -222,21 +222,21 @@ fn given_way(law: &Law, from: &State, step: &Step, axis: usize) -> State {
     best
 }
 
-/// In how many parts a strain is applied.
-pub fn parts(thermal: f64, stretch: Tensor) -> f64 {
+/// In how many substeps a strain is applied.
+pub fn substeps(thermal: f64, stretch: Tensor) -> f64 {
     let largest = stretch.iter().fold(thermal.abs(), |a, b| a.max(b.abs()));
-    (largest / PART).ceil().clamp(1.0, MAX_PARTS)
+    (largest / SUBSTEP).ceil().clamp(1.0, MAX_SUBSTEPS)
 }
 
-/// The state after a straight line of strain, in as many parts as it is long.
+/// The state after a straight line of strain, in as many substeps as it is long.
 pub fn advanced(law: &Law, state: &State, thermal: f64, stretch: Tensor) -> State {
-    in_parts(law, state, thermal, stretch, parts(thermal, stretch))
+    in_substeps(law, state, thermal, stretch, substeps(thermal, stretch))
 }
 
-/// The same in so many parts.
-fn in_parts(law: &Law, state: &State, thermal: f64, stretch: Tensor, parts: f64) -> State {
-    (0..parts as u32).fold(*state, |state, part| {
-        let of = |whole: f64| whole / (parts + whole * f64::from(part));
+/// The same in so many substeps.
+fn in_substeps(law: &Law, state: &State, thermal: f64, stretch: Tensor, substeps: f64) -> State {
+    (0..substeps as u32).fold(*state, |state, part| {
+        let of = |whole: f64| whole / (substeps + whole * f64::from(part));
         let [xx, yy, zz, xy, xz, yz] = stretch.map(of);
         // What is above the diagonal turns the box by half of the shear.
         let half = rotation([0.25 * -yz, 0.25 * xz, 0.25 * -xy]);

@@ -19,7 +19,7 @@ use std::time::Instant;
 /// Name of the function objects whose results are compared.
 const WATCH: &str = "msddChoice";
 /// File that shows that a folder was made here, so that it may be replaced.
-const OURS: &str = ".msdd-choice";
+const OURS: &str = ".msdd-autotune";
 
 /// What a case folder is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -448,7 +448,7 @@ mod tests {
 
     #[test]
     fn what_a_kill_leaves_is_replaced_and_what_is_the_users_is_kept() {
-        let root = std::env::temp_dir().join(format!("msdd-choice-trial-{}", std::process::id()));
+        let root = std::env::temp_dir().join(format!("msdd-autotune-trial-{}", std::process::id()));
         let (folder, mesh) = (root.join("bed.trial"), root.join("polyMesh"));
         let there = || folder.symlink_metadata().is_ok();
         std::fs::create_dir_all(&mesh).unwrap();

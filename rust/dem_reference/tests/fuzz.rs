@@ -4,8 +4,8 @@
 mod mutations;
 
 use msdd_dem::{Disc, Material, Simulation, Thermal, WallHeat, Walls};
-use msdd_reference::checkpoint::{Checkpoint, Records};
-use msdd_reference::results::Table;
+use msdd_dem_reference::checkpoint::{Checkpoint, Records};
+use msdd_dem_reference::results::Table;
 use std::path::Path;
 
 const ASKED: &str = "a run";

@@ -305,7 +305,7 @@ mod tests {
 
     #[test]
     fn sources_are_found_in_both_places() {
-        let folder = std::env::temp_dir().join(format!("msdd-choice-sources-{}", std::process::id()));
+        let folder = std::env::temp_dir().join(format!("msdd-autotune-sources-{}", std::process::id()));
         for part in ["constant", "system"] {
             std::fs::create_dir_all(folder.join(part)).unwrap();
             assert!(!sources(&folder));

@@ -73,7 +73,7 @@ impl Law {
             Grains::Discs => include_str!("bands.json"),
             Grains::Spheres => include_str!("bands-spheres.json"),
         };
-        serde_json::from_str(text).expect("rust/choice/src/bands*.json are laws of bands")
+        serde_json::from_str(text).expect("rust/autotune/src/bands*.json are laws of bands")
     }
 
     /// With four decimals.

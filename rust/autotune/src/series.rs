@@ -122,7 +122,7 @@ mod tests {
     use super::*;
 
     fn read(name: &str, text: &str) -> Series {
-        let case = std::env::temp_dir().join(format!("msdd-choice-{name}-{}", std::process::id()));
+        let case = std::env::temp_dir().join(format!("msdd-autotune-{name}-{}", std::process::id()));
         msdd_files::write(&case.join("postProcessing/p/0/T"), text.as_bytes()).unwrap();
         let read = Series::read(&case, "p", "T").unwrap();
         std::fs::remove_dir_all(&case).unwrap();

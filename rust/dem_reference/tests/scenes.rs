@@ -1,8 +1,8 @@
 //! The shipped scenes: their plan, their tables, and one of them computed again.
 
-use msdd_reference::scenes::data::{TABLES, lines, read};
-use msdd_reference::scenes::discs::{packed, simulate};
-use msdd_reference::scenes::{Plan, Use};
+use msdd_dem_reference::scenes::data::{TABLES, lines, read};
+use msdd_dem_reference::scenes::discs::{packed, simulate};
+use msdd_dem_reference::scenes::{Plan, Use};
 use msdd_rve::state;
 use std::path::PathBuf;
 
@@ -23,7 +23,7 @@ fn half_of_the_scenes_calibrate_and_half_judge() {
     assert!(count(Use::Outside) >= 6);
     assert!(plan.scenes.iter().all(|scene| scene.seeds.len() == 3));
     let inside = plan.scenes.iter().filter(|scene| scene.purpose != Use::Outside);
-    let unusual = |scene: &&msdd_reference::scenes::PlannedScene| {
+    let unusual = |scene: &&msdd_dem_reference::scenes::PlannedScene| {
         scene.friction.is_some() || scene.radii != msdd_case::packing::RADIUS_RANGE
     };
     assert_eq!(
