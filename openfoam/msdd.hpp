@@ -409,6 +409,17 @@ private:
     std::unique_ptr<msdd_rve, detail::Free> handle_;
 };
 
+/** Trains a model and returns the text of its file; the request is a JSON object, see msdd_train. Throws Error. */
+inline std::string train(const std::string& request)
+{
+    const detail::MaskedTraps masked;
+    detail::checkVersion();
+    char* text = nullptr;
+    detail::check(msdd_train(request.c_str(), &text));
+    const std::unique_ptr<char, detail::Free> owner(text);
+    return text;
+}
+
 /** A database: the file of results of RVEs simulated by a plan, from which models are trained. */
 class Database
 {

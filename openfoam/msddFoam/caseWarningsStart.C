@@ -95,7 +95,7 @@ public:
     scalar strain(const scalar increment, const scalar total)
     {
         const scalarField strains(1, increment), totals(1, total);
-        List<scalarField> answers(6, scalarField(1, Zero));
+        symmTensor K(Zero), stress(Zero);
         granularModel::query query;
         query.size = 1;
         query.trial = true;
@@ -104,15 +104,11 @@ public:
         query.nextState = state.cdata();
         query.strain = strains.cdata();
         query.totalStrain = totals.cdata();
-        query.conductivityXX = answers[0].data();
-        query.conductivityYY = answers[1].data();
-        query.conductivityXY = answers[2].data();
-        query.stressXX = answers[3].data();
-        query.stressYY = answers[4].data();
-        query.stressXY = answers[5].data();
+        query.conductivity = &K;
+        query.stress = &stress;
         query.outside = out.cdata();
         model_.advance(query);
-        return 0.5*(answers[3][0] + answers[4][0]);
+        return 0.5*(stress.xx() + stress.yy());
     }
 
     scalar porosity() const { return state_[0][0]; }

@@ -23,7 +23,6 @@ License
 #include "unitConversion.H"
 #include "fvcGrad.H"
 #include "fvmLaplacian.H"
-#include "gaussGrad.H"
 
 // * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
 
@@ -68,6 +67,12 @@ Foam::heatConduction::heatConduction
             properties.thermalConductivity().dimensions(), Zero
         ),
         extrapolatedCalculatedFvPatchSymmTensorField::typeName
+    ),
+    gradient_
+    (
+        IOobject("gradient", mesh_.time().timeName(), mesh_),
+        mesh_,
+        dimensionedVector(dimTemperature/dimLength, Zero)
     ),
     slanted_(false)
 {
@@ -144,18 +149,60 @@ void Foam::heatConduction::addAligned(fvScalarMatrix& equation) const
 }
 
 
+void Foam::heatConduction::findGradient() const
+{
+    const labelUList& owner = mesh_.owner();
+    const labelUList& neighbour = mesh_.neighbour();
+    const scalarField& weights = mesh_.weights();
+    const vectorField& Sf = mesh_.Sf();
+    vectorField& g = gradient_.primitiveFieldRef();
+
+    g = Zero;
+    forAll(owner, facei)
+    {
+        const label P = owner[facei], N = neighbour[facei];
+        const vector part
+        (
+            Sf[facei]*(weights[facei]*(T_[P] - T_[N]) + T_[N])
+        );
+        g[P] += part;
+        g[N] -= part;
+    }
+    for (const fvPatchScalarField& pT : T_.boundaryField())
+    {
+        const fvPatch& patch = pT.patch();
+        const labelUList& cells = patch.faceCells();
+        const vectorField& S = patch.Sf();
+        scalarField onFaces;
+        if (pT.coupled())
+        {
+            const scalarField& w = patch.weights();
+            onFaces =
+                w*pT.patchInternalField() + (1 - w)*pT.patchNeighbourField();
+        }
+        const scalarField& values = pT;
+        const scalarField& T = pT.coupled() ? onFaces : values;
+        forAll(cells, facei)
+        {
+            g[cells[facei]] += S[facei]*T[facei];
+        }
+    }
+    g /= mesh_.V();
+    if (coupled_)
+    {
+        gradient_.correctBoundaryConditions();
+    }
+}
+
+
 void Foam::heatConduction::addCrossed
 (
     fvScalarMatrix& equation,
     List<scalarField>& faceHeat
 ) const
 {
-    // Whatever gradSchemes says: this one needs no correction on such a mesh
-    const tmp<volVectorField> grad
-    (
-        fv::gaussGrad<scalar>(mesh_).calcGrad(T_, "gradient")
-    );
-    const vectorField& g = grad().primitiveField();
+    findGradient();
+    const vectorField& g = gradient_.primitiveField();
     const symmTensorField& K = K_.primitiveField();
     const labelUList& owner = mesh_.owner();
     const labelUList& neighbour = mesh_.neighbour();
@@ -203,7 +250,7 @@ void Foam::heatConduction::addCrossed
             return w*inner + (1 - w)*values.patchNeighbourField();
         };
         const symmTensorField onK(onFaces(K_));
-        const vectorField onG(onFaces(grad()));
+        const vectorField onG(onFaces(gradient_));
         forAll(cells, facei)
         {
             const scalar heat =

@@ -142,10 +142,8 @@ void Foam::granularModels::constant::readMean(const known& cells)
     one.nextState = state.cdata();
     one.strain = &zero;
     one.totalStrain = &zero;
-    one.conductivityXX = &K.xx();
-    one.conductivityYY = &K.yy();
-    one.stressXX = &sigma.xx();
-    one.stressYY = &sigma.yy();
+    one.conductivity = &K;
+    one.stress = &sigma;
     surrogateModel::advance(one);
 
     if (!coeffs_.found("conductivity"))
@@ -179,17 +177,10 @@ Foam::label Foam::granularModels::constant::advance(const query& cells)
         {
             cells.nextState[i][row] = cells.state[i][row];
         }
-        cells.conductivityXX[row] = conductivity_.xx();
-        cells.conductivityYY[row] = conductivity_.yy();
-        if (cells.conductivityXY)
+        for (const direction k : order())
         {
-            cells.conductivityXY[row] = conductivity_.xy();
-        }
-        cells.stressXX[row] = stress_.xx();
-        cells.stressYY[row] = stress_.yy();
-        if (cells.stressXY)
-        {
-            cells.stressXY[row] = stress_.xy();
+            cells.conductivity[row][k] = conductivity_[k];
+            cells.stress[row][k] = stress_[k];
         }
     }
     return 0;

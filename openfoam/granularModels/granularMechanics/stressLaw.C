@@ -37,17 +37,6 @@ static const scalar hertzStiffness = 0.5;
 static const scalar sphereResidual = 1e-3;
 static const scalar leastPressure = 1e-9;
 
-//- Components of a symmTensor in the order of the granularModel
-static const label modelOrder[] =
-{
-    symmTensor::XX, symmTensor::YY, symmTensor::ZZ,
-    symmTensor::XY, symmTensor::XZ, symmTensor::YZ
-};
-static const label planeOrder[] =
-{
-    symmTensor::XX, symmTensor::YY, symmTensor::XY
-};
-
 } // End namespace Foam
 
 
@@ -157,10 +146,10 @@ Foam::grainLaw::grainLaw
     const label cells = mesh.mesh().nCells();
     const bool spatial = grains.model().isThreeDimensional();
     const label own = grains.model().components(), n = order_.size();
-    places_.resize(own);
-    forAll(places_, i)
+    labelList places(own);
+    forAll(places, i)
     {
-        places_[i] = order_.find(spatial ? modelOrder[i] : planeOrder[i]);
+        places[i] = order_.find(grains.model().order()[i]);
     }
     tangent_ = columns(n*n, scalarField(cells, Zero));
     derivatives_ = List<scalar*>(own*own, nullptr);
@@ -168,10 +157,10 @@ Foam::grainLaw::grainLaw
     {
         for (label j = 0; j < own; ++j)
         {
-            if (places_[i] >= 0 && places_[j] >= 0)
+            if (places[i] >= 0 && places[j] >= 0)
             {
                 derivatives_[own*i + j] =
-                    tangent_[n*places_[i] + places_[j]].data();
+                    tangent_[n*places[i] + places[j]].data();
             }
         }
     }
@@ -226,18 +215,6 @@ Foam::sphereLaw::sphereLaw
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-void Foam::grainLaw::take()
-{
-    forAll(places_, i)
-    {
-        if (places_[i] >= 0)
-        {
-            stress_[places_[i]].transfer(found_[i]);
-        }
-    }
-}
-
-
 Foam::scalar Foam::sphereLaw::mean(const scalarField& pressure) const
 {
     const scalarField& V = mesh_.V();
@@ -282,8 +259,7 @@ Foam::scalar Foam::grainLaw::shear() const
 
 void Foam::grainLaw::present()
 {
-    found_ = grains_.endStress();
-    take();
+    stress_ = split(grains_.endStress());
 }
 
 
@@ -309,17 +285,26 @@ void Foam::grainLaw::find(const bool tangent)
     {
         findStretch();
     }
-    grains_.evaluateTrial
+    const symmTensorField& found = grains_.evaluateTrial
     (
-        strain_, found_, tangent ? derivatives_ : List<scalar*>()
+        strain_, tangent ? derivatives_ : List<scalar*>()
     );
-    take();
+    forAll(order_, k)
+    {
+        scalarField& column = stress_[k];
+        forAll(found, celli)
+        {
+            // Compression positive becomes tension positive, of which the
+            // derivative is the same
+            column[celli] = -found[celli][order_[k]];
+        }
+    }
 }
 
 
 void Foam::grainLaw::addTangent()
 {
-    grains_.evaluateTrial(strain_, found_, derivatives_);
+    grains_.evaluateTrial(strain_, derivatives_);
 }
 
 
@@ -353,7 +338,7 @@ void Foam::grainLaw::findTangent()
             column = 0;
         }
     }
-    grains_.evaluateTrial(strain_, found_, derivatives_);
+    grains_.evaluateTrial(strain_, derivatives_);
 }
 
 
@@ -365,8 +350,7 @@ Foam::scalar Foam::grainLaw::residual() const
 
 Foam::scalar Foam::sphereLaw::pressure() const
 {
-    const granularState::stressColumns s(grains_.endStress());
-    return mean((s[0] + s[1] + s[2])/(-3));
+    return mean(tr(grains_.endStress())/(-3));
 }
 
 

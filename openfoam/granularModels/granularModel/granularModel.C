@@ -144,6 +144,18 @@ void Foam::granularModel::refuse
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
+const Foam::List<Foam::direction>& Foam::granularModel::order() const
+{
+    typedef symmTensor t;
+    static const List<direction> plane({t::XX, t::YY, t::XY});
+    static const List<direction> space
+    ({
+        t::XX, t::YY, t::ZZ, t::XY, t::XZ, t::YZ
+    });
+    return isThreeDimensional() ? space : plane;
+}
+
+
 std::string Foam::granularModel::libraryVersion()
 {
     return msdd::version();

@@ -95,10 +95,8 @@ Foam::tmp<Foam::scalarField> Foam::grainFields::presentPressure() const
         }
         else
         {
-            p[celli] =
-                spatial
-              ? (sigma_[0][celli] + sigma_[1][celli] + sigma_[2][celli])/3
-              : 0.5*(sigma_[0][celli] + sigma_[1][celli]);
+            const symmTensor& sigma = sigma_[celli];
+            p[celli] = spatial ? tr(sigma)/3 : 0.5*(sigma.xx() + sigma.yy());
         }
     }
     return result;
@@ -162,7 +160,7 @@ void Foam::grainFields::refresh()
     forAll(sigma, celli)
     {
         // Compression positive becomes tension positive; not -0
-        const symmTensor s(modelAnswers::tensorOf(sigma_, celli));
+        const symmTensor& s = sigma_[celli];
         sigma[celli] =
             otherStress_.size()
           ? otherStress_[celli]

@@ -138,41 +138,22 @@ void Foam::grainFields::findInitialState(const bool missing)
     (
         givenField<symmTensor>(mesh_, "conductivity", conductivity_.dimensions())
     );
-    const bool spatial = model_->isThreeDimensional();
-    const label xy = spatial ? 3 : 2;
-    stressColumns sigma, K;
+    symmTensorField sigma;
     granularModel::known known;
     known.size = mesh_.nCells();
     if (stress.valid())
     {
         // Tension positive becomes compression positive
-        sigma = modelAnswers::split(-stress(), model_->components());
-        known.stressXX = sigma[0].cdata();
-        known.stressYY = sigma[1].cdata();
-        if (!model_->diagonal())
+        sigma = -stress();
+        known.stress = sigma.cdata();
+        if (model_->isThreeDimensional())
         {
-            known.stressXY = sigma[xy].cdata();
-        }
-        if (spatial)
-        {
-            known.stressZZ = sigma[2].cdata();
-            known.stressXZ = sigma[4].cdata();
-            known.stressYZ = sigma[5].cdata();
             compareWithPlane(mesh_, stress());
         }
     }
     if (conductivity.valid() && missing)
     {
-        K = modelAnswers::split
-        (
-            conductivity().primitiveField(), model_->components()
-        );
-        known.conductivityXX = K[0].cdata();
-        known.conductivityYY = K[1].cdata();
-        if (!model_->diagonal())
-        {
-            known.conductivityXY = K[xy].cdata();
-        }
+        known.conductivity = conductivity().primitiveField().cdata();
     }
 
     List<scalar*> pointers(state_.size());

@@ -91,7 +91,7 @@ void Foam::grainFields::reportWalls(const volScalarField& T) const
 void Foam::grainFields::setWallResistance
 (
     const symmTensorField& K,
-    const stressColumns& sigma
+    const symmTensorField& sigma
 )
 {
     if (!wallResistance_.valid())
@@ -120,7 +120,7 @@ void Foam::grainFields::atWall
     const scalarField& T,
     const bool resists,
     const symmTensorField& K,
-    const stressColumns& sigma,
+    const symmTensorField& sigma,
     scalarField& conductivity,
     scalarField& resistance
 ) const
@@ -134,8 +134,7 @@ void Foam::grainFields::atWall
     forAll(n, facei)
     {
         const label celli = cells[facei];
-        stress[facei] =
-            n[facei] & (modelAnswers::tensorOf(sigma, celli) & n[facei]);
+        stress[facei] = n[facei] & (sigma[celli] & n[facei]);
         temperature[facei] = T[celli];
         // Above zero for the law, also in a vacuum without contacts
         conductivity[facei] = max

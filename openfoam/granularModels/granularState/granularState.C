@@ -93,7 +93,7 @@ Foam::label Foam::granularState::ask
     query.nextState = to.pointers.cdata();
     query.strain = strain.cdata();
     query.totalStrain = total_.cdata();
-    asked_.answer(query, model_());
+    asked_.answer(query);
     query.temperature =
         model_->isThreeDimensional() ? askedTemperature_.cdata() : nullptr;
     query.outside = wantOutside ? outside_.pointers.cdata() : nullptr;
@@ -197,15 +197,12 @@ Foam::scalar Foam::granularState::extrapolate()
 }
 
 
-Foam::granularState::stressColumns Foam::granularState::askedStress() const
+Foam::symmTensorField Foam::granularState::askedStress() const
 {
-    stressColumns result(sigma_);
-    forAll(result, i)
+    symmTensorField result(sigma_);
+    forAll(rows_, row)
     {
-        forAll(rows_, row)
-        {
-            result[i][rows_[row]] = asked_.stress[i][row];
-        }
+        result[rows_[row]] = asked_.stress[row];
     }
     return result;
 }
@@ -290,10 +287,7 @@ void Foam::granularState::commit()
             state_[i].primitiveFieldRef() = accepted_.state.values[i];
         }
         sigma_ = accepted_.stress;
-        forAll(K, celli)
-        {
-            K[celli] = accepted_.K(celli);
-        }
+        K = accepted_.conductivity;
     }
     else
     {
@@ -308,12 +302,8 @@ void Foam::granularState::commit()
         }
         forAll(rows_, row)
         {
-            K[rows_[row]] = asked_.K(row);
-            // Models without shear leave its column as it is, zero
-            forAll(sigma_, i)
-            {
-                sigma_[i][rows_[row]] = asked_.stress[i][row];
-            }
+            K[rows_[row]] = asked_.conductivity[row];
+            sigma_[rows_[row]] = asked_.stress[row];
         }
     }
     forAll(rows_, row)
@@ -345,7 +335,7 @@ void Foam::granularState::findConductivity(symmTensorField& K)
     K = conductivity_.primitiveField();
     forAll(rows_, row)
     {
-        K[rows_[row]] = asked_.K(row);
+        K[rows_[row]] = asked_.conductivity[row];
     }
     if (wallResistance_.valid())
     {
@@ -361,7 +351,7 @@ bool Foam::granularState::diagonal() const
      || (
             properties_.getOrDefault<word>("mechanics", "none") == "none"
          && gSum(mag(conductivity_.primitiveField().component(symmTensor::XY)))
-          + gSum(mag(sigma_[model_->isThreeDimensional() ? 3 : 2])) == 0
+          + gSum(mag(sigma_.component(symmTensor::XY))) == 0
         );
 }
 

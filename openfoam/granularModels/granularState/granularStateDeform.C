@@ -19,16 +19,13 @@ License
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
-Foam::granularState::stressColumns Foam::granularState::endStress() const
+Foam::symmTensorField Foam::granularState::endStress() const
 {
-    stressColumns stress
+    symmTensorField stress
     (
         moved_ ? accepted_.stress : proposed_ ? askedStress() : sigma_
     );
-    for (scalarField& column : stress)
-    {
-        column.negate();
-    }
+    stress.negate();
     return stress;
 }
 
@@ -46,8 +43,8 @@ void Foam::granularState::enableDeformation(const scalarField& strength)
 
     deforms_ = true;
     stepStrain_.resize(cells, Zero);
-    tried_.setSize(state_.size(), model_->components(), cells);
-    accepted_.setSize(state_.size(), model_->components(), cells);
+    tried_.setSize(state_.size(), cells);
+    accepted_.setSize(state_.size(), cells);
 }
 
 
@@ -69,10 +66,9 @@ void Foam::granularState::strainAll
 }
 
 
-void Foam::granularState::evaluateTrial
+const Foam::symmTensorField& Foam::granularState::evaluateTrial
 (
     const strainColumns& strain,
-    stressColumns& stress,
     const UList<scalar*>& tangent
 )
 {
@@ -92,12 +88,10 @@ void Foam::granularState::evaluateTrial
     granularModel::query query;
     query.cellStrain = strained.cdata();
     query.rotation = turned.cdata();
-    tried_.answer(query, model_());
+    tried_.answer(query);
     if (model_->conductsApart())
     {
-        query.conductivityXX = query.conductivityYY = query.conductivityZZ =
-            query.conductivityXY = query.conductivityXZ =
-            query.conductivityYZ = nullptr;
+        query.conductivity = nullptr;
     }
     query.tangent = tangent.cdata();
     strainAll
@@ -106,14 +100,7 @@ void Foam::granularState::evaluateTrial
         moved_ ? accepted_.state.pointers.cdata() : start.cdata(),
         stepStrain()
     );
-
-    // Compression positive becomes tension positive, of which the derivative
-    // is the same
-    stress.resize(tried_.stress.size());
-    forAll(stress, i)
-    {
-        stress[i] = -tried_.stress[i];
-    }
+    return tried_.stress;
 }
 
 
@@ -124,7 +111,7 @@ void Foam::granularState::acceptTrial()
         // The conductivity of the state that was tried, which no strain leaves
         // as it is
         granularModel::query query;
-        tried_.answer(query, model_());
+        tried_.answer(query);
         strainAll(query, tried_.state.pointers.cdata(), zero_);
     }
     tried_.swap(accepted_);
@@ -150,9 +137,10 @@ Foam::string Foam::granularState::describe(const label celli) const
     }
     text<< "stress (" << (model_->isThreeDimensional() ? "xx yy zz xy xz yz" : "xx yy xy")
         << ", tension positive)";
-    for (const scalarField& column : endStress())
+    const symmTensor stress(endStress()[celli]);
+    for (const direction k : model_->order())
     {
-        text<< ' ' << 0 + column[celli];
+        text<< ' ' << 0 + stress[k];
     }
     text<< " Pa";
     return text.str();

@@ -85,7 +85,7 @@ void Foam::granularState::allocate()
     {
         column->resize(cells, Zero);
     }
-    asked_.setSize(count, model_->components(), cells);
+    asked_.setSize(count, cells);
     sigma_ = asked_.stress;
     rows_.setCapacity(cells);
     before_.setSize(count, cells);

@@ -140,20 +140,20 @@ void Foam::granularModels::onlineRve::answer
 
     cells.nextState[0][row] = at(&msdd_averages::porosity);
     cells.nextState[1][row] = at(&msdd_averages::fabric_index);
-    cells.conductivityXX[row] = k*at
+    cells.conductivity[row].xx() = k*at
     (
         network_
       ? &msdd_averages::conductivity_network_xx
       : &msdd_averages::conductivity_xx
     );
-    cells.conductivityYY[row] = k*at
+    cells.conductivity[row].yy() = k*at
     (
         network_
       ? &msdd_averages::conductivity_network_yy
       : &msdd_averages::conductivity_yy
     );
-    cells.stressXX[row] = at(&msdd_averages::stress_xx);
-    cells.stressYY[row] = at(&msdd_averages::stress_yy);
+    cells.stress[row].xx() = at(&msdd_averages::stress_xx);
+    cells.stress[row].yy() = at(&msdd_averages::stress_yy);
 }
 
 

@@ -310,7 +310,7 @@ void Foam::granularModels::spheres::initialState
     scalar* const* state
 )
 {
-    if (!cells.stressXX)
+    if (!cells.stress)
     {
         FatalErrorInFunction
             << "Field stress is missing in "
@@ -320,19 +320,13 @@ void Foam::granularModels::spheres::initialState
             << " weight of a bed. Without it contacts and stiffness are"
             << " undetermined" << exit(FatalError);
     }
-    const std::vector<const scalar*> stress
-    ({
-        cells.stressXX, cells.stressYY, cells.stressZZ,
-        cells.stressXY, cells.stressXZ, cells.stressYZ
-    });
     scalarField solid(cells.size);
     scalar tension = 0;
     label tense = 0;
     forAll(solid, celli)
     {
         solid[celli] = 1 - cells.porosity[celli];
-        const scalar p =
-            (stress[0][celli] + stress[1][celli] + stress[2][celli])/3;
+        const scalar p = tr(cells.stress[celli])/3;
         tense += p < 0;
         tension = max(tension, -p);
     }
@@ -377,13 +371,12 @@ void Foam::granularModels::spheres::initialState
     {
         mobilised = ofCells().primitiveField();
     }
-    const List<scalarField> fabric(fabricAtStart(cells.size));
-    std::vector<msdd_input> directions;
-    for (const scalarField& component : fabric)
-    {
-        directions.push_back(msdd::input(component.cdata()));
-    }
-    const std::vector<msdd_input> load(msdd::inputs(stress.data(), 6));
+    const symmTensorField fabric(fabricAtStart(cells.size));
+    const std::vector<msdd_input> directions
+    (
+        tensors<msdd_input>(fabric.empty() ? nullptr : fabric.cdata())
+    );
+    const std::vector<msdd_input> load(tensors<msdd_input>(cells.stress));
     const auto column = [](const scalarField& values)
     {
         return msdd::input(values.empty() ? nullptr : values.cdata());
@@ -395,11 +388,11 @@ void Foam::granularModels::spheres::initialState
     data.mobilised = column(mobilised);
     data.fabric = msdd::table(directions);
     start(data, grains_, state);
-    reportStart(cells.size, stress, state);
+    reportStart(cells.size, cells.stress, state);
 }
 
 
-Foam::List<Foam::scalarField>
+Foam::symmTensorField
 Foam::granularModels::spheres::fabricAtStart(const label size) const
 {
     symmTensorField given;
@@ -446,49 +439,31 @@ Foam::granularModels::spheres::fabricAtStart(const label size) const
             << ": random packings have up to " << mostFabric
             << ", isotropic ones 1/3" << nl << endl;
     }
-    if (given.empty())
-    {
-        return List<scalarField>();
-    }
-    const auto part = [&](const direction d)
-    {
-        return scalarField(given.component(d));
-    };
-    return List<scalarField>
-    ({
-        part(symmTensor::XX), part(symmTensor::YY), part(symmTensor::ZZ),
-        part(symmTensor::XY), part(symmTensor::XZ), part(symmTensor::YZ)
-    });
+    return given;
 }
 
 
 void Foam::granularModels::spheres::reportStart
 (
     const label size,
-    const std::vector<const scalar*>& given,
+    const symmTensor* given,
     scalar* const* state
 ) const
 {
-    List<scalarField> found(6, scalarField(size));
+    symmTensorField found(size);
     query start;
     start.size = size;
     start.state = state;
-    start.stressXX = found[0].data();
-    start.stressYY = found[1].data();
-    start.stressZZ = found[2].data();
-    start.stressXY = found[3].data();
-    start.stressXZ = found[4].data();
-    start.stressYZ = found[5].data();
+    start.stress = found.data();
     columns all(columnsOf(start));
     surrogateModel::advance(all, grains_);
     scalar most = 0;
     for (label celli = 0; celli < size; ++celli)
     {
-        const scalar p =
-            (given[0][celli] + given[1][celli] + given[2][celli])/3;
-        for (label i = 0; p > 0 && i < 6; ++i)
+        const scalar p = tr(given[celli])/3;
+        if (p > 0)
         {
-            most = max(most, mag(found[i][celli] - given[i][celli])/p);
+            most = max(most, cmptMax(cmptMag(found[celli] - given[celli]))/p);
         }
     }
     reduce(most, maxOp<scalar>());
@@ -512,7 +487,7 @@ Foam::label Foam::granularModels::spheres::advance(const query& cells)
     {
         scalarField values
         (
-            wanted && cells.conductivityXX && !f.isNumber() ? cells.size : 0
+            wanted && cells.conductivity && !f.isNumber() ? cells.size : 0
         );
         forAll(values, row)
         {
@@ -699,15 +674,13 @@ bool Foam::granularModels::spheres::radiation
     query one;
     one.size = 1;
     one.state = before.data();
-    one.conductivityXX = &K.xx();
-    one.conductivityYY = &K.yy();
-    one.conductivityZZ = &K.zz();
+    one.conductivity = &K;
     columns all(columnsOf(one));
     all.step.temperature = msdd::input(&T);
     all.step.solid_conductivity = msdd::input(&k);
     all.step.radiation_conductivity = msdd::output(&answer.conductivity);
     surrogateModel::advance(all, grains);
-    answer.without = (K.xx() + K.yy() + K.zz())/3 - answer.conductivity;
+    answer.without = tr(K)/3 - answer.conductivity;
     return true;
 }
 

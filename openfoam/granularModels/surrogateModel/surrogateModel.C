@@ -173,6 +173,7 @@ Foam::granularModels::surrogateModel::surrogateModel
     source_(source),
     model_(load(key, allowed, type == "spheres")),
     inSpace_(model_.components() == 6),
+    hasTangent_(model_.hasTangent()),
     grains_
     (
         msdd::grains
@@ -271,26 +272,8 @@ Foam::granularModels::surrogateModel::columnsOf(const query& cells) const
         result.nextState =
             msdd::outputs(cells.nextState + own_, model_.stateSize());
     }
-    const auto tensor = [&](std::vector<scalar*> plane, std::vector<scalar*> space)
-    {
-        return msdd::outputs((inSpace ? space : plane).data(), n);
-    };
-    result.conductivity = tensor
-    (
-        {cells.conductivityXX, cells.conductivityYY, cells.conductivityXY},
-        {
-            cells.conductivityXX, cells.conductivityYY, cells.conductivityZZ,
-            cells.conductivityXY, cells.conductivityXZ, cells.conductivityYZ
-        }
-    );
-    result.stress = tensor
-    (
-        {cells.stressXX, cells.stressYY, cells.stressXY},
-        {
-            cells.stressXX, cells.stressYY, cells.stressZZ,
-            cells.stressXY, cells.stressXZ, cells.stressYZ
-        }
-    );
+    result.conductivity = tensors<msdd_output>(cells.conductivity);
+    result.stress = tensors<msdd_output>(cells.stress);
     result.tangent = msdd::outputs(cells.tangent, n*n);
     result.distance = msdd::outputs(cells.outside, model_.stateSize() + 1);
     result.step = msdd::step(cells.size, n);
@@ -369,21 +352,16 @@ void Foam::granularModels::surrogateModel::initialState
     scalar* const* state
 )
 {
-    const msdd_input stress[] =
-    {
-        msdd::input(cells.stressXX), msdd::input(cells.stressYY),
-        msdd::input(cells.stressXY)
-    };
-    const msdd_input conductivity[] =
-    {
-        msdd::input(cells.conductivityXX), msdd::input(cells.conductivityYY),
-        msdd::input(cells.conductivityXY)
-    };
+    const std::vector<msdd_input> stress(tensors<msdd_input>(cells.stress));
+    const std::vector<msdd_input> conductivity
+    (
+        tensors<msdd_input>(cells.conductivity)
+    );
     msdd_start data(msdd::start(cells.size, components()));
     data.porosity = msdd::input(cells.porosity);
     data.fabric_index = msdd::input(cells.fabricIndex);
-    data.stress = stress;
-    data.conductivity = conductivity;
+    data.stress = msdd::table(stress);
+    data.conductivity = msdd::table(conductivity);
     start(data, grains_, state);
 }
 

@@ -730,6 +730,10 @@ unsafe extern "C" {
         csv: *const ::core::ffi::c_char,
         rows: *mut u64,
     ) -> i32;
+    pub fn msdd_train(
+        request: *const ::core::ffi::c_char,
+        model: *mut *mut ::core::ffi::c_char,
+    ) -> i32;
     pub fn msdd_plugin_v2_table() -> *const msdd_plugin_v2;
     pub fn msdd_compared(
         hash: *const ::core::ffi::c_char,

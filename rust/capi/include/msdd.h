@@ -340,6 +340,21 @@ int32_t msdd_database_generate(const char *plan, const char *path, uint32_t thre
  *  NULL) is set to the number of rows. If the name ends in .gz, the file is compressed. */
 int32_t msdd_database_export_csv(const char *database, const char *csv, uint64_t *rows);
 
+/* ------------------------------------------------------------------------------------------------------- training */
+
+/** Trains a model, as `msdd train` does. `request` is a JSON object; all keys but the first may be left out:
+ *
+ *  "database"  list of databases, or of CSV files exported from them; for spheres also folders of beds of DEM
+ *  "model"     "constant", "paper", "increment" (the default) or "spheres"
+ *  "name"      of the model; by default its kind
+ *  "seed"      of the split into training and held-out packings, 1
+ *  "restarts", "epochs", "patience"   as the options of `msdd train`
+ *  "fix"       object: parameters of the law of spheres that keep their values, for example {"lode": 0.45}
+ *  "threads"   0 (the default): one per core; the result does not depend on it
+ *
+ *  *model receives the text of the model file; msdd_text_free frees it. */
+int32_t msdd_train(const char *request, char **model);
+
 /* ------------------------------------------------------------------------------------------------------- plug-ins */
 
 /* A plug-in is a shared library with a surrogate model made by somebody else. It includes this header, needs nothing of

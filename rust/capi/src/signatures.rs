@@ -47,6 +47,7 @@ same! {
     msdd_rve_free(*mut msdd_rve);
     msdd_database_generate(*const c_char, *const c_char, u32, msdd_progress, *mut c_void) -> i32;
     msdd_database_export_csv(*const c_char, *const c_char, *mut u64) -> i32;
+    msdd_train(*const c_char, *mut *mut c_char) -> i32;
     msdd_compared(*const c_char, *const c_char, *mut f64, *mut f64) -> i32;
     msdd_gas_conductivity(*const c_char, f64, *mut f64) -> i32;
     msdd_gas_properties(*const c_char, f64, *mut f64) -> i32;

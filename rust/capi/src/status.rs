@@ -5,6 +5,7 @@ use msdd_plugin::{PluginError, shown};
 use msdd_rve::database::DatabaseError;
 use msdd_rve::{RveError, state::StateError};
 use msdd_surrogate::SurrogateError;
+use msdd_training::TrainingError;
 use std::cell::RefCell;
 use std::ffi::{CStr, CString, c_char};
 
@@ -29,6 +30,8 @@ pub(crate) enum Failure {
     State(#[from] StateError),
     #[error("{0}")]
     Database(#[from] DatabaseError),
+    #[error("{0}")]
+    Training(#[from] TrainingError),
     #[error("stopped by the progress call-back")]
     Cancelled,
 }
@@ -56,7 +59,9 @@ impl Failure {
             Self::Plugin(_) => abi::MSDD_PLUGIN,
             Self::Database(DatabaseError::Plan { .. }) | Self::Rve(_) | Self::State(_) => abi::MSDD_RVE,
             Self::Database(_) => abi::MSDD_IO,
-            Self::Model { .. } => abi::MSDD_MODEL,
+            Self::Model { .. } | Self::Training(TrainingError::Surrogate { .. }) => abi::MSDD_MODEL,
+            Self::Training(TrainingError::Data(_)) => abi::MSDD_INVALID_ARGUMENT,
+            Self::Training(_) => abi::MSDD_IO,
             Self::NonFinite { .. } => abi::MSDD_NON_FINITE,
             Self::Cancelled => abi::MSDD_CANCELLED,
         };

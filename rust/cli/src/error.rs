@@ -30,8 +30,8 @@ pub enum CliError {
     Stopped { source: msdd_rve::RveError, file: PathBuf, steps: u64, time: f64 },
     #[error("{file}: {source}")]
     State { file: PathBuf, source: msdd_rve::state::StateError },
-    #[error("{file}: {source}")]
-    Training { file: PathBuf, source: msdd_surrogate::SurrogateError },
+    #[error(transparent)]
+    Training(#[from] msdd_training::TrainingError),
     #[error("{file}: {source}")]
     Model { file: PathBuf, source: msdd_surrogate::SurrogateError },
     #[error("{0}")]

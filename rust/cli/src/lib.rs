@@ -15,14 +15,12 @@ mod error;
 mod progress;
 mod reference;
 mod report;
-mod rows;
 mod rve;
 mod score;
 mod simd;
 mod spheres;
 mod summary;
 mod threads;
-mod tracks;
 mod train;
 
 use clap::{CommandFactory, Parser, Subcommand};

@@ -1,14 +1,12 @@
 //! `msdd train`.
 
 use crate::error::CliError;
-use crate::rows::training_data;
 use crate::score;
 use crate::spheres;
 use clap::Args;
 use msdd_files::{check_target, check_writable, write};
-use msdd_rve::database::{Dataset, read_all};
-use msdd_surrogate::document::hash;
-use msdd_surrogate::{DatabaseProvenance, TrainingOptions, models};
+use msdd_surrogate::models;
+use msdd_training::{Request, Trained, train};
 use std::path::PathBuf;
 use std::time::Instant;
 
@@ -45,69 +43,44 @@ pub struct Arguments {
     /// 100000. Default: 20.
     #[arg(long)]
     patience: Option<u32>,
+    /// A parameter of the law of spheres that keeps this value while the others are fitted, by its name in a model file's object
+    /// `law`, for example `lode=0.45` or `elements[3].free=0`; may be repeated. A name that no parameter has gets the list.
+    #[arg(long, value_name = "NAME=VALUE", value_parser = parameter)]
+    fix: Vec<(String, f64)>,
+}
+
+/// `NAME=VALUE`.
+fn parameter(text: &str) -> Result<(String, f64), String> {
+    let allowed = "NAME=VALUE, for example lode=0.45";
+    let (name, value) = text.split_once('=').ok_or_else(|| format!("allowed: {allowed}"))?;
+    let value = value.trim().parse().map_err(|error| format!("{error}, allowed: {allowed}"))?;
+    Ok((name.trim().to_string(), value))
 }
 
 pub fn run(arguments: &Arguments) -> Result<(), CliError> {
     check_target(&arguments.out)?;
-    if arguments.model == spheres::KIND {
-        return spheres::train_and_write(&spheres::Training {
-            database: &arguments.database,
-            out: &arguments.out,
-            name: arguments.name.as_deref(),
-            seed: arguments.seed,
-            epochs: arguments.epochs,
-        });
-    }
-    let dataset = read_all(&arguments.database)?;
-    let data = training_data(&dataset.records);
-    let failed = |source| CliError::Training { file: arguments.database[0].clone(), source };
-    let kind = models::kind(&arguments.model).map_err(failed)?;
-    let options = options(arguments, kind, &dataset)?;
     check_writable(&arguments.out)?;
     let begin = Instant::now();
-    let model = (kind.train)(&data, &options).map_err(failed)?;
+    let trained = train(&Request {
+        database: arguments.database.clone(),
+        model: arguments.model.clone(),
+        name: arguments.name.clone(),
+        seed: arguments.seed,
+        restarts: arguments.restarts,
+        epochs: arguments.epochs,
+        patience: arguments.patience,
+        fix: arguments.fix.iter().cloned().collect(),
+        threads: 0,
+    })?;
     let seconds = begin.elapsed().as_secs_f64();
-    write(&arguments.out, model.to_json().as_bytes())?;
-    score::print_training(model.as_ref(), &data, &options.database.plan_hash).map_err(failed)?;
-    outln!("model {} in {}, trained in {seconds:.1} s", model.hash(), arguments.out.display());
+    write(&arguments.out, trained.to_json().as_bytes())?;
+    match &trained {
+        Trained::Discs { model, data, plan_hash } => {
+            let failed = |source| CliError::Model { file: arguments.out.clone(), source };
+            score::print_training(model.as_ref(), data, plan_hash).map_err(failed)?;
+        }
+        Trained::Spheres { model, tracks } => spheres::print_training(model, tracks)?,
+    }
+    outln!("model {} in {}, trained in {seconds:.1} s", trained.hash(), arguments.out.display());
     Ok(())
-}
-
-fn options(
-    arguments: &Arguments,
-    kind: &models::Kind,
-    dataset: &Dataset,
-) -> Result<TrainingOptions, CliError> {
-    let mut options = TrainingOptions::default();
-    options.name = arguments.name.clone().unwrap_or_else(|| arguments.model.clone());
-    options.seed = arguments.seed;
-    options.restarts = arguments.restarts.unwrap_or(options.restarts);
-    options.max_epochs = arguments.epochs.unwrap_or(kind.epochs);
-    options.patience = arguments.patience.unwrap_or(options.patience);
-    options.database = provenance(arguments, dataset)?;
-    Ok(options)
-}
-
-fn provenance(arguments: &Arguments, dataset: &Dataset) -> Result<DatabaseProvenance, CliError> {
-    let value = |key: &str| {
-        let missing = || format!("{}: no {key} in its provenance", arguments.database[0].display());
-        dataset.provenance.get(key).ok_or_else(|| CliError::Message(missing()))
-    };
-    let bad = |key: &str| {
-        let path = arguments.database[0].display().to_string();
-        let key = key.to_string();
-        move |error: String| CliError::Message(format!("{path}: provenance {key}: {error}"))
-    };
-    let number = |key: &'static str| value(key)?.parse::<f64>().map_err(|error| bad(key)(error.to_string()));
-    let rows = serde_json::to_string(&dataset.records)
-        .map_err(|error| CliError::Message(format!("{}: {error}", arguments.database[0].display())))?;
-    Ok(DatabaseProvenance {
-        rows_hash: Some(hash(&rows)),
-        plan_hash: value("plan_hash")?.clone(),
-        engine_version: value("engine_version")?.clone(),
-        material: serde_json::from_str(value("material")?)
-            .map_err(|error| bad("material")(error.to_string()))?,
-        radius_min: number("radius_min")?,
-        radius_max: number("radius_max")?,
-    })
 }

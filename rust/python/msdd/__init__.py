@@ -40,6 +40,7 @@ from ._material import Material, SphereMaterial, SphereWall, wall_resistance
 from ._mesh import Mesh, read_mesh
 from ._model import Model, Step, WallFriction, load_model
 from ._rve import Averages, Contacts, Grains, Rve, pack
+from ._training import train
 
 __all__ = [
     "Averages",
@@ -76,6 +77,7 @@ __all__ = [
     "read_summary",
     "read_table",
     "time_folders",
+    "train",
     "wall_resistance",
 ]
 

@@ -111,6 +111,7 @@ SIGNATURES: dict[str, tuple[Optional[type], list[type]]] = {
     "msdd_rve_free": (None, [_HANDLE]),
     "msdd_database_generate": (_STATUS, [_TEXT, _TEXT, c.c_uint32, Progress, c.c_void_p]),
     "msdd_database_export_csv": (_STATUS, [_TEXT, _TEXT, c.POINTER(c.c_uint64)]),
+    "msdd_train": (_STATUS, [_TEXT, _OUT]),
     "msdd_compared": (_STATUS, [_TEXT, _TEXT, c.POINTER(c.c_double), c.POINTER(c.c_double)]),
     "msdd_gas_conductivity": (_STATUS, [_TEXT, c.c_double, c.POINTER(c.c_double)]),
     "msdd_gas_properties": (_STATUS, [_TEXT, c.c_double, c.POINTER(c.c_double)]),

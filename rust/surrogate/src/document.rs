@@ -3,6 +3,7 @@
 use crate::SurrogateError;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
+use std::borrow::Cow;
 
 /// Cannot fail for plain data of finite numbers and string keys.
 pub(crate) fn json<T: Serialize>(value: &T) -> String {
@@ -25,8 +26,12 @@ pub(crate) fn schema(text: &str) -> Result<String, SurrogateError> {
 }
 
 /// The error that refuses the value of a key.
-pub(crate) fn field<T>(key: &str, value: impl ToString, allowed: &'static str) -> Result<T, SurrogateError> {
-    Err(SurrogateError::Field { key: key.to_string(), value: value.to_string(), allowed })
+pub(crate) fn field<T>(
+    key: &str,
+    value: impl ToString,
+    allowed: impl Into<Cow<'static, str>>,
+) -> Result<T, SurrogateError> {
+    Err(SurrogateError::Field { key: key.to_string(), value: value.to_string(), allowed: allowed.into() })
 }
 
 #[cfg(test)]

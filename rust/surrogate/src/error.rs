@@ -1,3 +1,5 @@
+use std::borrow::Cow;
+
 /// Errors of training and of model files.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum SurrogateError {
@@ -15,7 +17,7 @@ pub enum SurrogateError {
     Schema { found: String, expected: &'static str },
     /// A value that no trained model can have.
     #[error("model file: {key} = {value}, allowed: {allowed}", value = short(value))]
-    Field { key: String, value: String, allowed: &'static str },
+    Field { key: String, value: String, allowed: Cow<'static, str> },
 }
 
 /// A value for a message: a number of three hundred digits as 1e300, a long text without its middle.
@@ -37,8 +39,9 @@ mod tests {
 
     #[test]
     fn messages_are_short() {
-        let field =
-            |value: String| SurrogateError::Field { key: "k".to_string(), value, allowed: "0" }.to_string();
+        let field = |value: String| {
+            SurrogateError::Field { key: "k".to_string(), value, allowed: "0".into() }.to_string()
+        };
         assert_eq!(field(1e300.to_string()), "model file: k = 1e300, allowed: 0");
         assert!(field("x".repeat(1_000_000)).len() < 300);
     }

@@ -2,6 +2,7 @@
 
 use crate::SurrogateError;
 use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
 
 /// The database from which the training data came.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -36,6 +37,10 @@ pub struct TrainingOptions {
     pub max_epochs: u32,
     /// Training stops after this many epochs without a lower validation error (paper: 20).
     pub patience: u32,
+    /// Parameters of the law of spheres that keep these values, by their names in a model file, for example `lode`; all others are
+    /// fitted.
+    #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
+    pub fixed: BTreeMap<String, f64>,
     /// Provenance of the rows.
     pub database: DatabaseProvenance,
     /// Number of threads, 0 = one per core. It does not change the result and is not in the model file.
@@ -51,6 +56,7 @@ impl Default for TrainingOptions {
             restarts: 1,
             max_epochs: 200,
             patience: 20,
+            fixed: BTreeMap::new(),
             database: DatabaseProvenance::default(),
             threads: 0,
         }

@@ -4,12 +4,14 @@ mod compared;
 mod database;
 mod model;
 mod rve;
+mod train;
 mod wall;
 
 pub use compared::*;
 pub use database::*;
 pub use model::*;
 pub use rve::*;
+pub use train::*;
 pub use wall::*;
 
 use crate::abi::MSDD_ABI_VERSION;

@@ -1,7 +1,6 @@
 //! `msdd bed case`: the bed of a `bed.toml` as a case folder of the solver.
 
 use super::geometry::Geometry;
-use super::start::FirstRow;
 use crate::case::checkout;
 use crate::error::CliError;
 use clap::Args;
@@ -13,6 +12,7 @@ use msdd_case::folder::{self, File, check_folder};
 use msdd_case::numbers::{plain, rounded};
 use msdd_case::spheres::wall::{self, WallMaterial};
 use msdd_case::values::property_text;
+use msdd_training::dem_start::FirstRow;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 

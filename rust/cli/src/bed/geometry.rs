@@ -1,12 +1,12 @@
 //! The bed of a `bed.toml` as the solver's mesh: a column of cells between plates, a wedge of a cylinder.
 
-use super::start::FirstRow;
 use crate::error::CliError;
 use msdd_beds::case::BedCase;
 use msdd_case::numbers::plain;
 use msdd_case::spheres::blocks::{Across, Blocks};
 use msdd_case::spheres::shape::INNER;
 use msdd_rve::message::number;
+use msdd_training::dem_start::FirstRow;
 use std::path::Path;
 
 /// Cells along a direction in which heat flows.

@@ -1,8 +1,6 @@
 //! `msdd bed law`: the constitutive model alone along the strain that was recorded in a bed.
 
-use super::start::packings;
 use crate::error::CliError;
-use crate::spheres::beds::track;
 use clap::Args;
 use msdd_beds::case::{BedCase, FILE, file_in};
 use msdd_beds::packings::column;
@@ -13,6 +11,8 @@ use msdd_surrogate::spheres::model::SphereModel;
 use msdd_surrogate::spheres::state::State;
 use msdd_surrogate::spheres::tensor::{contraction, deviator, mean};
 use msdd_surrogate::spheres::tracks::{Point as DataPoint, Step, Track, follow};
+use msdd_training::dem_start::packings;
+use msdd_training::spheres::beds::track;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
@@ -111,7 +111,7 @@ pub(super) fn results_of(folder: &Path) -> Result<Vec<(Option<u64>, PathBuf)>, C
     match packings(folder) {
         Ok(all) => Ok(all.into_iter().map(|(seed, file)| (Some(seed), file)).collect()),
         Err(_) if mean.is_file() => Ok(vec![(None, mean)]),
-        Err(error) => Err(error),
+        Err(error) => Err(error.into()),
     }
 }
 

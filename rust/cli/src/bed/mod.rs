@@ -9,7 +9,6 @@ mod moving;
 mod plot;
 mod results;
 mod slack;
-pub(crate) mod start;
 mod table;
 
 use crate::error::CliError;

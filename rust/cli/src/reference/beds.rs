@@ -4,7 +4,6 @@ use super::bands::{Found, Group, fit_law, print_coverage, run as attempt_run, wr
 use super::scenes::solve;
 use crate::bed::foam::{self, probes};
 use crate::bed::geometry::Geometry;
-use crate::bed::start::{FirstRow, packings};
 use crate::case::checkout;
 use crate::error::CliError;
 use clap::Args;
@@ -20,6 +19,7 @@ use msdd_case::folder;
 use msdd_case::numbers::plain;
 use msdd_dem_reference::scenes::{BedPlan, PlannedBed};
 use msdd_files::{Column, read_text, write};
+use msdd_training::dem_start::{FirstRow, packings};
 use std::fmt::Write as _;
 use std::ops::Range;
 use std::path::{Path, PathBuf};

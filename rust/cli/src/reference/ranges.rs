@@ -1,6 +1,5 @@
 //! `msdd reference ranges`: the ranges of the scenes and beds by which the default models are compared with DEM.
 
-use crate::bed::start::packings;
 use crate::error::CliError;
 use clap::Args;
 use msdd_beds::case::BedCase;
@@ -10,6 +9,7 @@ use msdd_dem_reference::scenes::{BedPlan, Plan, PlannedScene, Use, data};
 use msdd_files::{read_text, write};
 use msdd_spheres::law::effective_modulus;
 use msdd_surrogate::compared::{Compared, Ranges};
+use msdd_training::dem_start::packings;
 use std::path::{Path, PathBuf};
 
 /// Significant digits of the ranges, rounded outwards.

@@ -3,7 +3,6 @@
 mod plot;
 
 use crate::error::CliError;
-use crate::rows::training_data;
 use crate::spheres;
 use clap::Args;
 use msdd_case::numbers::{plain, rounded};
@@ -17,6 +16,7 @@ use msdd_surrogate::surrogate::Surrogate;
 use msdd_surrogate::tracks::PathErrors;
 use msdd_surrogate::training_data::TrainingData;
 use msdd_surrogate::wall_friction::WallFriction;
+use msdd_training::training_data;
 use std::path::PathBuf;
 
 #[derive(Args)]
@@ -48,7 +48,7 @@ pub fn run(arguments: &Arguments) -> Result<(), CliError> {
     for file in &arguments.model {
         let failed = |source| CliError::Model { file: file.clone(), source };
         let model = models::read(&read_text(file)?).map_err(failed)?;
-        let failed = |source| CliError::Training { file: arguments.database[0].clone(), source };
+        let failed = |source| CliError::Model { file: arguments.database[0].clone(), source };
         let ramps = ramps(model.as_ref(), &data, &plan_hash).map_err(failed)?;
         let result = score(model.as_ref(), &ramps);
         print(&result);

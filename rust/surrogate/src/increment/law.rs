@@ -303,7 +303,7 @@ impl Law {
             ),
         ];
         if let Some((key, value, _, allowed)) = numbers.iter().find(|(_, _, good, _)| !good) {
-            return field(&format!("law.{key}"), value, allowed);
+            return field(&format!("law.{key}"), value, *allowed);
         }
         let shares: f64 = self.elements.iter().map(|element| element.share).sum();
         if (shares - 1.0).abs() > 1e-9 {

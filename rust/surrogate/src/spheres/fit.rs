@@ -2,7 +2,7 @@
 
 use super::contacts::Contacts;
 use super::law::Law;
-use super::parameters::{beginning, law, parameters};
+use super::parameters::Free;
 use super::state::FABRIC;
 use super::tensor::{Tensor, contraction, deviator, mean, sum};
 use super::tracks::{Track, follow};
@@ -71,6 +71,8 @@ pub struct PathFit<'a> {
     pub threads: usize,
     /// How the number of contacts changes, by which the fabric turns.
     pub contacts: Contacts,
+    /// The parameters that are fitted.
+    pub free: Free,
 }
 
 impl Paths for PathFit<'_> {
@@ -82,7 +84,7 @@ impl Paths for PathFit<'_> {
     }
 
     fn residuals(&self, x: &DVector<f64>) -> Vec<f64> {
-        let law = Law { contacts: self.contacts, ..law(x) };
+        let law = Law { contacts: self.contacts, ..self.free.law(x) };
         let both = |k: usize| if k < 3 { 1.0 } else { std::f64::consts::SQRT_2 };
         let mut residuals = Vec::new();
         for track in self.tracks {
@@ -118,10 +120,9 @@ impl Paths for PathFit<'_> {
     }
 }
 
-/// Fits the law, from [`beginning`].
+/// Fits the law, from [`super::parameters::beginning`].
 pub fn fit(problem: &PathFit, epochs: u32) -> (Law, Minimum) {
-    let start = parameters(&beginning());
     let limits = Limits { max_epochs: epochs, gradient: 1e-10 };
-    let minimum = minimise(problem, start, limits, |_, _, _| ControlFlow::Continue(()));
-    (Law { contacts: problem.contacts, ..law(&minimum.parameters) }, minimum)
+    let minimum = minimise(problem, problem.free.start(), limits, |_, _, _| ControlFlow::Continue(()));
+    (Law { contacts: problem.contacts, ..problem.free.law(&minimum.parameters) }, minimum)
 }

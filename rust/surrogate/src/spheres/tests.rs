@@ -4,7 +4,7 @@ use super::contacts::Contacts;
 use super::fit_state::readout;
 use super::law::Law;
 use super::model::{COLUMNS, Increment, SphereModel, columns, state};
-use super::parameters::{beginning, law as law_of, parameters};
+use super::parameters::beginning;
 use super::state::{FABRIC, POURED, PackingData, State};
 use super::tensor::{Rotation, Tensor, contraction, deviator, mean, rotation, turned};
 use super::tracks::{Point, Step, Track, advanced, follow};
@@ -434,25 +434,6 @@ fn any_deviator_has_a_start() {
         }
     }
     assert!(2 * whole > all && whole < all, "{whole} of {all}");
-}
-
-#[test]
-fn parameters_are_the_numbers_of_the_law() {
-    let mut law = beginning();
-    assert_eq!(law_of(&parameters(&law)).elements[FABRIC].hardening, law.elements[FABRIC].hardening);
-    law.bulk[1] *= 1.5;
-    law.opening_densification[1] *= 2.0;
-    let again = law_of(&parameters(&law));
-    assert!(
-        (again.bulk[1] - law.bulk[1]).abs() < 1e-12
-            && (again.opening_densification[1] / law.opening_densification[1] - 1.0).abs() < 1e-12
-    );
-    // Bounds are kept, so that every file of a training can be read.
-    let mut far = parameters(&law);
-    far.fill(1e3);
-    assert!(law_of(&far).check().is_ok());
-    far.fill(-1e3);
-    assert!(law_of(&far).check().is_ok());
 }
 
 /// What a packing has more contacts than usual it keeps if its friction is mobilised. If it was made without friction it keeps them

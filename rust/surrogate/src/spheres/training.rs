@@ -3,7 +3,7 @@
 use super::fit::{PathFit, fit};
 use super::fit_state::{contacts, readout, usual_fabric};
 use super::model::{File, Ranges, Report, SCHEMA, SphereModel};
-use super::parameters::{PARAMETERS, beginning};
+use super::parameters::{Free, beginning};
 use super::tensor::{Tensor, contraction, deviator, mean};
 use super::tracks::{Track, follow};
 use crate::SurrogateError;
@@ -43,7 +43,8 @@ pub fn train(tracks: &[Track], options: &TrainingOptions) -> Result<SphereModel,
         return Err(SurrogateError::Data(text.to_string()));
     }
     let contacts = contacts(&beginning(), &seen);
-    let problem = PathFit { tracks: &seen, threads: options.threads_used(), contacts };
+    let free = Free::new(&options.fixed)?;
+    let problem = PathFit { tracks: &seen, threads: options.threads_used(), contacts, free };
     let (mut law, minimum) = fit(&problem, options.max_epochs);
     law.fabric[1] = usual_fabric(&law, &seen);
     let readout = readout(&law, &seen);
@@ -52,7 +53,7 @@ pub fn train(tracks: &[Track], options: &TrainingOptions) -> Result<SphereModel,
     let report = Report {
         packings: [packings(&seen), packings(&unseen)],
         paths: [seen.len(), unseen.len()],
-        parameters: PARAMETERS,
+        parameters: problem.free.count(),
         epochs: minimum.epochs,
         mean_square: minimum.mean_square,
     };

@@ -88,8 +88,8 @@ fn text(scene: &BedCase, case: &Path, out: &Path, size: &str, notes: &[String]) 
 mod tests {
     use super::*;
     use crate::bed::foam;
-    use crate::bed::start::FirstRow;
     use msdd_beds::schedule::Schedule;
+    use msdd_training::dem_start::FirstRow;
 
     fn near(found: f64, wanted: f64, tolerance: f64) {
         assert!((found / wanted - 1.0).abs() < tolerance, "{found} {wanted}");

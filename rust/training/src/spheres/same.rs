@@ -1,6 +1,6 @@
 //! Refuses data of spheres of different materials: one law cannot be fitted to both.
 
-use crate::error::CliError;
+use crate::TrainingError;
 use std::path::{Path, PathBuf};
 
 /// What the materials of the data must agree in. Stresses are over E* and conductivities over that of the grains, so that these do not
@@ -16,13 +16,13 @@ impl SeenValues {
     /// Compares a value with that of the data before; `None` if it is not known or may differ.
     ///
     /// # Errors
-    /// [`CliError::Message`] with both files and both values.
-    pub fn agree(&mut self, file: &Path, values: [Option<f64>; 2]) -> Result<(), CliError> {
+    /// [`TrainingError::Data`] with both files and both values.
+    pub fn agree(&mut self, file: &Path, values: [Option<f64>; 2]) -> Result<(), TrainingError> {
         for ((key, known), value) in KEYS.iter().zip(&mut self.0).zip(values) {
             let Some(value) = value else { continue };
             let (first, expected) = known.get_or_insert_with(|| (file.to_path_buf(), value));
             if *expected != value {
-                return Err(CliError::Message(format!(
+                return Err(TrainingError::Data(format!(
                     "{}: material: {key} = {value}, allowed: {expected}, as in {}: one law is fitted to spheres of one material",
                     file.display(),
                     first.display()

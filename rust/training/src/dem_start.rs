@@ -1,6 +1,6 @@
 //! What a bed of DEM is like at the start, as the law of spheres needs it.
 
-use crate::error::CliError;
+use crate::TrainingError;
 use msdd_beds::mobilised::mobilised;
 use msdd_beds::packings::at_start;
 use msdd_files::{list, read_text};
@@ -36,18 +36,18 @@ impl FirstRow {
     ///
     /// # Errors
     /// A file that cannot be read, or has no first row with these columns, or values in it that no bed has.
-    pub fn read(file: &Path) -> Result<Self, CliError> {
+    pub fn read(file: &Path) -> Result<Self, TrainingError> {
         let text = read_text(file)?;
         let within = |name: &str, [low, high]: [f64; 2]| {
             let value = at_start(&text, name).ok_or_else(|| {
-                CliError::Message(format!(
+                TrainingError::Data(format!(
                     "{}: no column {name} with a first value, allowed: dem.csv of this version's 'msdd bed run'",
                     file.display()
                 ))
             })?;
             match (low..=high).contains(&value) {
                 true => Ok(value),
-                false => Err(CliError::Message(format!(
+                false => Err(TrainingError::Data(format!(
                     "{}: {name} = {} in the first row, allowed: {} to {}",
                     file.display(),
                     number(value),
@@ -56,14 +56,14 @@ impl FirstRow {
                 ))),
             }
         };
-        let three = |name: &str, range: [f64; 2]| -> Result<[f64; 3], CliError> {
+        let three = |name: &str, range: [f64; 2]| -> Result<[f64; 3], TrainingError> {
             let part = |k: usize| within(&format!("{name}_{k}"), range);
             Ok([part(1)?, part(2)?, part(3)?])
         };
         let fabric = three("fabric", [0.0, 1.0])?;
         let trace: f64 = fabric.iter().sum();
         if (trace - 1.0).abs() > UNIT_TRACE {
-            return Err(CliError::Message(format!(
+            return Err(TrainingError::Data(format!(
                 "{}: fabric_1 + fabric_2 + fabric_3 = {} in the first row, allowed: 1",
                 file.display(),
                 number(trace)
@@ -86,7 +86,7 @@ impl FirstRow {
 ///
 /// # Errors
 /// A folder that cannot be read, or has no such file.
-pub fn packings(folder: &Path) -> Result<Vec<(u64, PathBuf)>, CliError> {
+pub fn packings(folder: &Path) -> Result<Vec<(u64, PathBuf)>, TrainingError> {
     let seed = |file: &PathBuf| {
         file.file_name()?.to_str()?.strip_prefix("dem-")?.strip_suffix(".csv")?.parse::<u64>().ok()
     };
@@ -94,7 +94,7 @@ pub fn packings(folder: &Path) -> Result<Vec<(u64, PathBuf)>, CliError> {
         list(folder)?.into_iter().filter_map(|file| Some((seed(&file)?, file))).collect();
     all.sort();
     match all.is_empty() {
-        true => Err(CliError::Message(format!(
+        true => Err(TrainingError::Data(format!(
             "{}: no file dem-<seed>.csv, allowed: results of 'msdd bed run --packings'",
             folder.display()
         ))),

@@ -2,8 +2,8 @@
 //! known inside.
 
 use super::same::SeenValues;
-use crate::bed::start::{FirstRow, packings};
-use crate::error::CliError;
+use crate::TrainingError;
+use crate::dem_start::{FirstRow, packings};
 use msdd_beds::case::{BedCase, FILE, file_in};
 use msdd_beds::effective::BedMaterial;
 use msdd_beds::packings::column;
@@ -41,7 +41,11 @@ const STATE: [&str; 10] = [
 /// # Errors
 /// A folder without beds or results; results without strains; a bed whose conductivity by contacts is not that of the law; a bed of
 /// another friction than `material`.
-pub fn tracks(root: &Path, first: i64, material: &mut SeenValues) -> Result<(Vec<Track>, String), CliError> {
+pub fn tracks(
+    root: &Path,
+    first: i64,
+    material: &mut SeenValues,
+) -> Result<(Vec<Track>, String), TrainingError> {
     let folders = list(root)?.into_iter().filter(|folder| file_in(folder).is_file());
     let (mut all, mut texts) = (Vec::new(), String::new());
     let mut seeds: Vec<u64> = Vec::new();
@@ -61,7 +65,7 @@ pub fn tracks(root: &Path, first: i64, material: &mut SeenValues) -> Result<(Vec
         }
     }
     match all.is_empty() {
-        true => Err(CliError::Message(format!(
+        true => Err(TrainingError::Data(format!(
             "{}: no folder with {FILE}, allowed: a folder of beds, each with results of 'msdd bed run --packings'",
             root.display()
         ))),
@@ -70,8 +74,8 @@ pub fn tracks(root: &Path, first: i64, material: &mut SeenValues) -> Result<(Vec
 }
 
 /// Refuses beds whose spheres are unequal, or conduct in another way than those of the training.
-fn check_spheres(folder: &Path, scene: &BedCase) -> Result<(), CliError> {
-    let refuse = |text: &str| Err(CliError::Message(format!("{}: {text}", file_in(folder).display())));
+fn check_spheres(folder: &Path, scene: &BedCase) -> Result<(), TrainingError> {
+    let refuse = |text: &str| Err(TrainingError::Data(format!("{}: {text}", file_in(folder).display())));
     if scene.grains.sizes.is_some() {
         return refuse("spheres of unequal size, allowed for a training: equal ones");
     }
@@ -97,12 +101,15 @@ pub fn track(
     file: &Path,
     text: &str,
     packing: i64,
-) -> Result<Track, CliError> {
+) -> Result<Track, TrainingError> {
     let grains = &scene.grains;
     let values = |name: &&str| {
         column(text, name).ok_or_else(|| {
             let allowed = "dem.csv of this version's 'msdd bed run'";
-            CliError::Message(format!("{}: no column {name} of numbers, allowed: {allowed}", file.display()))
+            TrainingError::Data(format!(
+                "{}: no column {name} of numbers, allowed: {allowed}",
+                file.display()
+            ))
         })
     };
     let strains: Vec<Vec<f64>> = STRAIN.iter().map(values).collect::<Result<_, _>>()?;

@@ -1,95 +1,20 @@
-//! `msdd train` and `msdd score` for the law of spheres.
-
-pub mod beds;
-mod same;
-mod tracks;
+//! What `msdd train` and `msdd score` print of the law of spheres.
 
 use crate::error::CliError;
-use msdd_files::{check_writable, read_text, write};
-use msdd_rve::database::{SpherePlan, read_spheres};
-use msdd_surrogate::document::hash;
+use msdd_files::{read_text, write};
 use msdd_surrogate::spheres::errors::Errors;
 use msdd_surrogate::spheres::model::SphereModel;
 use msdd_surrogate::spheres::score::{PathErrors, score};
-use msdd_surrogate::spheres::tracks::{Track, set_aside};
-use msdd_surrogate::spheres::training::{DEFAULT_EPOCHS, is_held_out, train};
-use msdd_surrogate::{DatabaseProvenance, TrainingOptions};
-use same::SeenValues;
+use msdd_surrogate::spheres::tracks::Track;
+use msdd_surrogate::spheres::training::is_held_out;
+use msdd_training::spheres::read;
 use std::path::{Path, PathBuf};
-use std::time::Instant;
 
-/// Name of the kind of model.
-pub const KIND: &str = "spheres";
-
-/// The paths of all files and folders of beds, packings numbered on, and where they come from.
-fn read(files: &[PathBuf]) -> Result<(Vec<Track>, DatabaseProvenance), CliError> {
-    let (mut all, mut next) = (Vec::new(), 0);
-    let (mut plans, mut rows) = (String::new(), String::new());
-    let mut provenance = DatabaseProvenance::default();
-    let mut known = SeenValues::default();
-    for file in files {
-        if file.is_dir() {
-            let (tracks, text) = beds::tracks(file, next, &mut known)?;
-            next = tracks.iter().map(|track| track.packing + 1).max().unwrap_or(next);
-            plans += &hash(&text);
-            rows += &text;
-            all.extend(tracks);
-            continue;
-        }
-        let mut dataset = read_spheres(file)?;
-        let plan = dataset.provenance.get("plan").map_or("", String::as_str);
-        if SpherePlan::parse(plan, "plan")
-            .is_ok_and(|plan| plan.spheres.iter().any(|block| block.sizes.is_some()))
-        {
-            return Err(CliError::Message(format!(
-                "{}: sizes: boxes of unequal spheres, allowed: of equal ones, for which the law is",
-                file.display()
-            )));
-        }
-        dataset.records.iter_mut().for_each(|record| record.packing += next);
-        next = dataset.records.iter().map(|record| record.packing + 1).max().unwrap_or(next);
-        all.extend(tracks::tracks(&dataset.records));
-        let value = |key: &str| dataset.provenance.get(key).cloned().unwrap_or_default();
-        plans += &value("plan_hash");
-        rows += &serde_json::to_string(&dataset.records)
-            .map_err(|error| CliError::Message(format!("{}: {error}", file.display())))?;
-        provenance.engine_version = value("engine_version");
-        provenance.material = serde_json::from_str(&value("material")).unwrap_or_default();
-        known.agree(file, same::of_database(&provenance.material))?;
-    }
-    provenance.plan_hash = if files.len() > 1 { hash(&plans) } else { plans };
-    provenance.rows_hash = Some(hash(&rows));
-    set_aside(&mut all);
-    Ok((all, provenance))
-}
-
-/// Options of a training, as far as they matter here.
-pub struct Training<'a> {
-    pub database: &'a [PathBuf],
-    pub out: &'a Path,
-    pub name: Option<&'a str>,
-    pub seed: u64,
-    pub epochs: Option<u32>,
-}
-
-pub fn train_and_write(training: &Training) -> Result<(), CliError> {
-    let (tracks, database) = read(training.database)?;
-    let options = TrainingOptions {
-        name: training.name.unwrap_or(KIND).to_string(),
-        seed: training.seed,
-        max_epochs: training.epochs.unwrap_or(DEFAULT_EPOCHS),
-        database,
-        ..TrainingOptions::default()
-    };
-    check_writable(training.out)?;
-    let begin = Instant::now();
-    let failed = |source| CliError::Training { file: training.database[0].clone(), source };
-    let model = train(&tracks, &options).map_err(failed)?;
-    let seconds = begin.elapsed().as_secs_f64();
-    write(training.out, model.to_json().as_bytes())?;
-    let report = model.file.report;
+/// Prints what `msdd train` reports of a new model.
+pub fn print_training(model: &SphereModel, tracks: &[Track]) -> Result<(), CliError> {
+    let report = &model.file.report;
     outln!(
-        "{} numbers of the law fitted to {} paths of {} packings, {} packings held out: mean square {:.3e} after {} epochs",
+        "{} parameters of the law fitted to {} paths of {} packings, {} packings held out: mean square {:.3e} after {} epochs",
         report.parameters,
         report.paths[0],
         report.packings[0],
@@ -97,8 +22,7 @@ pub fn train_and_write(training: &Training) -> Result<(), CliError> {
         report.mean_square,
         report.epochs
     );
-    print_scores(&model, &tracks, true)?;
-    outln!("model {} in {}, trained in {seconds:.1} s", model.hash(), training.out.display());
+    print_scores(model, tracks, true)?;
     Ok(())
 }
 
