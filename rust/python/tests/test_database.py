@@ -37,6 +37,28 @@ class Databases(unittest.TestCase):
         self.plan, self.database = self.folder / "plan.toml", self.folder / "boxes.msdd"
         self.plan.write_text(PLAN)
 
+    def test_trained(self) -> None:
+        msdd.generate_database(self.plan, self.database)
+        csv, out = self.folder / "boxes.csv", self.folder / "model.json"
+        msdd.export_database(self.database, csv)
+        model = msdd.train(self.database, out, model="constant", name="mine")
+        self.assertEqual(model.describe()["name"], "mine")
+        text = out.read_bytes()
+        self.assertEqual(msdd.train([csv], out, model="constant", name="mine", threads=2).hash, model.hash)
+        self.assertEqual(out.read_bytes(), text)
+        # What is refused leaves the file as it was.
+        for database, options, message in (
+            ([], {}, "database = \\[\\], allowed"),
+            (self.folder / "none.csv", {}, "none.csv"),
+            (csv, {"model": "none"}, "model = none, allowed: constant, paper, increment, spheres"),
+            (csv, {"epochs": 0}, "max_epochs = 0, allowed: 1 to 100000"),
+            (csv, {"fix": {"lode": 0.1}}, "fix: lode = 0.1 with model increment"),
+        ):
+            with self.assertRaisesRegex(msdd.MsddError, message):
+                msdd.train(database, out, **options)
+        self.assertEqual(out.read_bytes(), text)
+        self.assertEqual(list(self.folder.glob("*.part")), [])
+
     def test_made_and_opened(self) -> None:
         heard: list[tuple[int, int, int]] = []
         msdd.generate_database(self.plan, self.database, threads=2, progress=lambda *state: heard.append(state))

@@ -8,7 +8,7 @@ pub enum SurrogateError {
     Data(String),
     /// A training option is out of range.
     #[error("training option {key} = {value}, allowed: {allowed}", value = short(value))]
-    Option { key: &'static str, value: String, allowed: &'static str },
+    Option { key: &'static str, value: String, allowed: Cow<'static, str> },
     /// The text is not a model file: not JSON, cut short, or with missing or unknown keys.
     #[error("model file is damaged: {0}")]
     Damaged(String),

@@ -59,7 +59,7 @@ pub fn kind(name: &str) -> Result<&'static Kind, SurrogateError> {
     MODELS.iter().find(|kind| kind.name == name).ok_or_else(|| SurrogateError::Option {
         key: "model",
         value: name.to_string(),
-        allowed: "constant, paper, increment",
+        allowed: "constant, paper, increment, spheres".into(),
     })
 }
 
@@ -87,7 +87,7 @@ pub fn builtin(name: &str) -> Trained {
         None => Err(SurrogateError::Option {
             key: "model",
             value: name.to_string(),
-            allowed: "builtin, builtin:increment, builtin:paper",
+            allowed: "builtin, builtin:increment, builtin:paper".into(),
         }),
     }
 }

@@ -69,7 +69,11 @@ impl TrainingOptions {
             [("restarts", self.restarts), ("max_epochs", self.max_epochs), ("patience", self.patience)]
         {
             if !(1..=100_000).contains(&value) {
-                return Err(SurrogateError::Option { key, value: value.to_string(), allowed: "1 to 100000" });
+                return Err(SurrogateError::Option {
+                    key,
+                    value: value.to_string(),
+                    allowed: "1 to 100000".into(),
+                });
             }
         }
         let DatabaseProvenance { radius_min, radius_max, .. } = self.database;
@@ -78,7 +82,7 @@ impl TrainingOptions {
             return Err(SurrogateError::Option {
                 key: "database radii",
                 value,
-                allowed: "0 <= min <= max, finite",
+                allowed: "0 <= min <= max, finite".into(),
             });
         }
         Ok(())

@@ -10,6 +10,7 @@ use msdd_files::FileError;
 use msdd_rve::database::{DatabaseError, Dataset, read_all};
 use msdd_surrogate::document::hash;
 use msdd_surrogate::spheres::model::SphereModel;
+use msdd_surrogate::spheres::parameters::Free;
 use msdd_surrogate::spheres::tracks::Track;
 use msdd_surrogate::spheres::training;
 use msdd_surrogate::surrogate::Surrogate;
@@ -125,6 +126,7 @@ pub fn train(request: &Request) -> Result<Trained, TrainingError> {
     };
     let failed = |source| TrainingError::Surrogate { file: first.clone(), source };
     if request.model == spheres::KIND {
+        Free::new(&request.fix).map_err(failed)?;
         let (tracks, provenance) = spheres::read(&request.database)?;
         let options = request.options(training::DEFAULT_EPOCHS, provenance);
         let model = Box::new(training::train(&tracks, &options).map_err(failed)?);

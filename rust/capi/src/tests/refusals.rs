@@ -256,3 +256,34 @@ fn a_panic_becomes_a_status() {
     assert_eq!(status(|| panic!("deliberate, {}", 42)), MSDD_INTERNAL);
     assert!(last_error().contains("deliberate, 42"));
 }
+
+/// Requests of a training that cannot be done; what is trained is compared with `msdd train` in tests/python.
+#[test]
+fn trainings_are_refused_by_key() {
+    let refused = |request: &CStr| {
+        let mut model = null_mut();
+        // SAFETY: a C string; the model is writable.
+        let status = unsafe { msdd_train(request.as_ptr(), &mut model) };
+        assert!(status != MSDD_OK && model.is_null());
+        last_error()
+    };
+    for (request, expected) in [
+        (c"{", "request = {, allowed: a JSON object with \"database\" and other keys of msdd_train"),
+        (c"{\"databases\": []}", "unknown field `databases`"),
+        (c"{\"database\": []}", "database = [], allowed: at least one database"),
+        (c"{\"database\": [\"none.csv\"]}", "none.csv"),
+        (c"{\"database\": [\"none.csv\"], \"fix\": {\"lode\": 0.1}}", "fix: lode = 0.1 with model increment"),
+        (
+            c"{\"database\": [\"a\"], \"model\": \"spheres\", \"fix\": {\"lode\": 2}}",
+            "fix = lode=2, allowed: 0 to 0.8",
+        ),
+    ] {
+        let found = refused(request);
+        assert!(found.contains(expected), "{request:?}: {found}");
+    }
+    // SAFETY: null is refused.
+    unsafe {
+        assert!(msdd_train(null(), &mut null_mut()) != MSDD_OK);
+        assert!(msdd_train(c"{}".as_ptr(), null_mut()) != MSDD_OK);
+    }
+}

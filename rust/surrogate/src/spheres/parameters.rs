@@ -24,6 +24,15 @@ impl Scale {
             Logarithm(range) | Over(_, range) => *range,
         }
     }
+
+    /// Whether a value is in the range; else the range in words.
+    fn check(&self, value: f64) -> Result<(), String> {
+        let [least, most] = self.range();
+        match (least..=most).contains(&value) {
+            true => Ok(()),
+            false => Err(format!("{least} to {most}")),
+        }
+    }
 }
 
 const FREE: [f64; 2] = [-1e4, 1e4];
@@ -98,15 +107,6 @@ fn document(law: &Law) -> Value {
     serde_json::to_value(law).unwrap_or_else(|error| unreachable!("plain numbers: {error}"))
 }
 
-/// Refuses a parameter outside of its range.
-fn check_one(name: &str, scale: &Scale, value: f64) -> Result<(), SurrogateError> {
-    let [least, most] = scale.range();
-    match (least..=most).contains(&value) {
-        true => Ok(()),
-        false => field(&format!("law.{name}"), value, format!("{least} to {most}")),
-    }
-}
-
 /// Refuses a law with a parameter outside of its range.
 ///
 /// # Errors
@@ -116,7 +116,7 @@ pub(super) fn check(law: &Law) -> Result<(), SurrogateError> {
     TABLE.iter().try_for_each(|(name, scale)| {
         // A number that is not finite is null in JSON.
         let value = at(&mut law, name).and_then(|value| value.as_f64()).unwrap_or(f64::NAN);
-        check_one(name, scale, value)
+        scale.check(value).or_else(|range| field(&format!("law.{name}"), value, range))
     })
 }
 
@@ -130,15 +130,21 @@ impl Free {
     /// All but the `fixed` ones, whose values are given.
     ///
     /// # Errors
-    /// [`SurrogateError::Field`] for a name that no parameter has, and for a value outside of its range.
+    /// [`SurrogateError::Option`] for a name that no parameter has, and for a value outside of its range.
     pub fn new(fixed: &BTreeMap<String, f64>) -> Result<Self, SurrogateError> {
         let mut base = document(&beginning());
         for (name, &value) in fixed {
+            let refuse = |allowed: String| {
+                let value = format!("{name}={value}");
+                Err(SurrogateError::Option { key: "fix", value, allowed: allowed.into() })
+            };
             let Some((name, scale)) = TABLE.iter().find(|row| row.0 == name) else {
                 let names: Vec<&str> = TABLE.iter().map(|row| row.0).collect();
-                return field(&format!("law.{name}"), value, names.join(", "));
+                return refuse(format!("a value of one of these: {}", names.join(", ")));
             };
-            check_one(name, scale, value)?;
+            if let Err(range) = scale.check(value) {
+                return refuse(range);
+            }
             if let Some(place) = at(&mut base, name) {
                 *place = value.into();
             }
@@ -261,10 +267,11 @@ mod tests {
         assert_eq!((law.lode, law.elements[3].unmobilised), (0.2, -1.0));
         let text =
             |fixed: &[(&str, f64)]| free(fixed).err().map(|error| error.to_string()).unwrap_or_default();
-        assert_eq!(text(&[("lode", 0.9)]), "model file: law.lode = 0.9, allowed: 0 to 0.8");
+        assert_eq!(text(&[("lode", 0.9)]), "training option fix = lode=0.9, allowed: 0 to 0.8");
         let unknown = text(&[("load", 0.1)]);
         assert!(
-            unknown.contains("law.load = 0.1, allowed: bulk[0], ") && unknown.contains("lode"),
+            unknown.contains("fix = load=0.1, allowed: a value of one of these: bulk[0], ")
+                && unknown.contains("lode"),
             "{unknown}"
         );
     }
