@@ -44,7 +44,7 @@ static const largestOf largest[] =
 };
 
 //- Lateral over vertical stress between which grains do not slide: friction
-//- angles up to 55 degrees where the bed can give way sideways, and up to 30
+//- angles up to 55 degrees where the bed can yield sideways, and up to 30
 //- where it is pressed from there
 static const scalar leastLateral = 0.1;
 static const scalar mostLateral = 3;

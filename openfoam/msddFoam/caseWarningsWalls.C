@@ -26,7 +26,7 @@ License
 namespace Foam
 {
 
-//- Height over width from which on smooth sides are told
+//- Height over width from which on smooth sides are reported
 static const scalar tallBed = 1.5;
 
 //- Friction of a bed of spheres along a wall with the usual coefficient 0.3:

@@ -108,7 +108,7 @@ void Foam::heatConduction::findFeet()
     {
         const fvPatch& patch = mesh_.boundary()[patchi];
         // At a wall to another region both sides have to see the same heat,
-        // and its condition knows nothing of the feet
+        // and its condition does not include the feet
         if
         (
             patch.coupled()

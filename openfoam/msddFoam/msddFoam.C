@@ -44,10 +44,10 @@ Usage
 
     Writes  T, porosity, fabricIndex, conductivity, stress (tension positive),
             pressure (compression positive), bulkDensity, particleDensity,
-            thermalStrain, inTrainingRange, spread if the model knows; for restarts
-            initialTemperature, thermalStrainIncrement, the rest of the model's
-            state and uniform/msddFoam, the last file of a time: what the run
-            was computed with, and the checksums of the other files;
+            thermalStrain, inTrainingRange, spread if the model has it; for
+            restarts initialTemperature, thermalStrainIncrement, the rest of the
+            model's state and uniform/msddFoam, the last file of a time: what
+            the run was computed with, and the checksums of the other files;
             postProcessing/msddFoam/summary.json, tables.json (runTables), and
             offenders.json if cells were outside the model's region
 

@@ -112,9 +112,9 @@ Foam::string Foam::runSummary::warning() const
             " differ.";
     }
     return
-        "Warning: small boxes of grains of equal state differ by "
-      + brief(100*spread) + " % in conductivity (standard deviation, mean over"
-        " the bed); no cell is more accurate than that.";
+        "Warning: sampling scatter of the packing: "
+      + brief(100*spread) + " % of K (standard deviation between boxes of equal"
+        " state, mean over the bed); no cell is more accurate.";
 }
 
 
@@ -128,8 +128,8 @@ Foam::string Foam::runSummary::balance(const heatBalance& heat) const
         string(heat.difference() > runRecord::muchHeat ? "Warning: heat is lost or made. " : "")
       + "Heat: since the start " + brief(heat.patches) + " J came in"
         " through the boundary and " + brief(heat.sources) + " J from sources;"
-        " the grains hold " + brief(heat.stored) + " J more. Heat received and"
-        " heat held differ by " + brief(heat.difference()) + " of all heat that was exchanged.";
+        " the grains hold " + brief(heat.stored) + " J more. The energy balance"
+        " closes to " + brief(heat.difference()) + " of all heat that was exchanged.";
 }
 
 

@@ -216,7 +216,7 @@ void Foam::runSummary::write
     {
         Info<< "  - " << sentence.c_str() << nl;
     }
-    Info<< nl << "What to know about this run:" << nl;
+    Info<< nl << "Accuracy and warnings of this run:" << nl;
     for (const string& sentence : sentences)
     {
         Info<< "  - " << sentence.c_str() << nl;

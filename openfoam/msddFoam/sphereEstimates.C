@@ -27,7 +27,7 @@ License
 namespace Foam
 {
 
-//- Share of the conductivity from which on radiation is told
+//- Share of the conductivity from which on radiation is reported
 static const scalar muchRadiation = 0.02;
 
 } // End namespace Foam

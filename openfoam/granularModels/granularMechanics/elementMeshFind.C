@@ -143,7 +143,7 @@ void Foam::elementMesh::findBack(const labelList& nodeOfPoint)
             const label p = f[i], q = f.nextLabel(i);
             const label a = nodeOfPoint[p], b = nodeOfPoint[q];
             // On the axis of a wedge a node has no point behind it: the points
-            // beside it belong to other nodes
+            // next to it belong to other nodes
             if (a >= 0 && b < 0 && !onAxis(p))
             {
                 back_[a] = q;

@@ -25,7 +25,7 @@ License
 namespace Foam
 {
 
-//- Motions of walls at which grains give way: at most so many, until they miss
+//- Motions of walls at which grains yield: at most so many, until they miss
 //- the way that the grains give by this share of it, or by this share of the
 //- mean radius; and the least share of a motion that is tried at once
 static const label mostGiving = 20;
@@ -49,7 +49,7 @@ bool Foam::granularMechanicsModels::equilibrium::giveWay
     nodeField& give
 )
 {
-    // The motion of a wall changes the strain beside it, and that the motion:
+    // The motion of a wall changes the strain next to it, and that the motion:
     // a fixed point, approached with the relaxation of Aitken (Irons and Tuck,
     // 1969, Int. J. Numer. Methods Eng. 1:275)
     scalar share = 1;

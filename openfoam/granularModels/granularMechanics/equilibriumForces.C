@@ -27,7 +27,7 @@ namespace Foam
 
 //- Mean stress at the start over the weight per area below which there is a
 //- warning. At rest it is about a half; in silos a hundred times as high as wide,
-//- whose sides bear nearly all, it may be a hundredth
+//- whose sides carry nearly all, it may be a hundredth
 static const scalar leastBorne = 0.01;
 
 } // End namespace Foam
@@ -62,7 +62,7 @@ void Foam::granularMechanicsModels::equilibrium::addForce
 ) const
 {
     // The cells are material and so keep their weight. In bodies of revolution
-    // the nodes that are farther out bear more of it, as on rectangles
+    // the nodes that are farther out carry more of it, as on rectangles
     const label dim = nodes_.dim(), r = nodes_.radial();
     nodes_.each([&](const auto& e)
     {
@@ -137,7 +137,7 @@ void Foam::granularMechanicsModels::equilibrium::setStart()
     }
     const label dim = nodes_.dim();
     nodeField free(start_ - weight_);
-    // Shells are at rest under what they bear at the start
+    // Shells are at rest under what they carry at the start
     nodeField borne(free.size(), Zero);
     if (!law_->elastic())
     {

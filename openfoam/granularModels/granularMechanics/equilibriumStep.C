@@ -291,8 +291,8 @@ void Foam::granularMechanicsModels::equilibrium::follow
     findDiagonal();
 
     // To the residual of the step if it can be: what is left lets the cells
-    // beside the walls take most of the motion, and on irregular cells Newton's
-    // method may not find the way back from there
+    // next to the walls take most of the motion, and on irregular cells
+    // Newton's method may not find the way back from there
     scalar most = tolerance_;
     forAll(r_, i)
     {

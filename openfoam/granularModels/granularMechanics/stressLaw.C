@@ -32,7 +32,7 @@ static const scalar grainResidual = 1e-4;
 //- Spheres: unit of the stiffness over E* (p/E*)^(1/3), of which packings have
 //- 0.4 to 0.55 in uniaxial compression and 0.12 to 0.17 in shear; imbalance over the mean
 //- pressure; and least pressure over E* for both, a tenth of that of a bed under
-//- its own weight, for beds that bear nothing
+//- its own weight, for beds that carry nothing
 static const scalar hertzStiffness = 0.5;
 static const scalar sphereResidual = 1e-3;
 static const scalar leastPressure = 1e-9;

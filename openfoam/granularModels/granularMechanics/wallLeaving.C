@@ -58,8 +58,8 @@ void Foam::wallConstraints::findPushing()
             const scalar along = holding_->along(wall, e);
             const label sign = along > 0 ? 1 : -1;
             const label r = mesh_.radial();
-            // The inner wall of a body of revolution bears nearly nothing where
-            // it stands for the axis
+            // The inner wall of a body of revolution carries nearly nothing
+            // where it stands for the axis
             const bool inner = r >= 0 && sign*e[r] < -parallel;
             if
             (

@@ -90,7 +90,7 @@ void Foam::wallConstraints::findPistons()
         one.owned = owned;
         one.count = returnReduce(scalar(owned.size()), sumOp<scalar>());
 
-        // Walls beside it, and other pistons, must let it move
+        // Walls next to it, and other pistons, must let it move
         forAll(constrainedNodes_, i)
         {
             for (label j = 0; on[constrainedNodes_[i]] > 0 && j < directions_[i]; ++j)

@@ -225,7 +225,7 @@ void Foam::regionPolicy::judgeShare
     {
         return;
     }
-    // Written before, unless the model tells no columns
+    // Written before, unless the model reports no columns
     const fileName list(path(mesh_));
     FatalIOErrorInFunction(dict_)
         << when.c_str() << ' ' << cells << " of " << cells_.size()

@@ -53,7 +53,7 @@ static const comparedQuantity comparedQuantities[] =
 //- hundred grains and not the extremes of cells
 static const scalar margin = 0.2;
 
-//- Factor from which on it is told
+//- Factor from which on it is reported
 static const scalar leastFactor = 1.5;
 
 //- Shares of the run at which samples are taken; how much the rates between

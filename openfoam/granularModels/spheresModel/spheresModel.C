@@ -177,7 +177,7 @@ static const keyTable sphereWallKeys
     }
 );
 
-//- Change of the stress at the start, over the pressure, that is told
+//- Change of the stress at the start, over the pressure, that is reported
 static const scalar notable = 1e-3;
 
 //- By how much the trace of a fabric may differ from 1: it is given rounded
@@ -605,7 +605,7 @@ bool Foam::granularModels::spheres::knownGas
     {
         return false;
     }
-    // A packing that the law knows
+    // A packing that the law covers
     const scalar solid = usualSolid;
     const scalarField stress({1e4, 1e4, 1e4, 0, 0, 0});
     scalarField state(stateNames_.size());

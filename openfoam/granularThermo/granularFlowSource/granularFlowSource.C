@@ -158,7 +158,7 @@ void Foam::fv::granularFlowSource::report() const
         << flow_->summary().c_str() << ",\n  \"what_to_know\": [";
     const char* comma = "\n    ";
     Info<< nl << "Region " << mesh_.name() << nl
-        << "What to know about the flow:" << nl;
+        << "Accuracy and warnings of the flow:" << nl;
     for (const string& sentence : flow_->sentences())
     {
         if (!sentence.empty())

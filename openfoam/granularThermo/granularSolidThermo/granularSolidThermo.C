@@ -272,7 +272,7 @@ void Foam::granularSolidThermo::setGradients()
 {
     for (fvPatchScalarField& patch : he_.boundaryFieldRef())
     {
-        // From values: snGrad of newer versions asks the class of the patch
+        // From values: snGrad of newer versions queries the class of the patch
         const tmp<scalarField> gradient
         (
             patch.patch().deltaCoeffs()*(patch - patch.patchInternalField())
@@ -378,7 +378,7 @@ void Foam::granularSolidThermo::begin() const
     {
         return;
     }
-    // Solvers ask for the conductivity through a constant reference
+    // Solvers request the conductivity through a constant reference
     granularSolidThermo& self = const_cast<granularSolidThermo&>(*this);
     self.step_ = time.timeIndex();
     self.startT_ = T_.primitiveField();

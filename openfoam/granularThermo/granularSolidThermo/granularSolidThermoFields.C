@@ -171,7 +171,7 @@ Foam::tmp<Foam::scalarField> Foam::granularSolidThermo::gamma
 
 Foam::tmp<Foam::volScalarField> Foam::granularSolidThermo::W() const
 {
-    // Grains have no molecules: solvers ask for this only with gases
+    // Grains have no molecules: solvers request this only with gases
     return uniform("W", dimensionedScalar("W", dimMass/dimMoles, 1));
 }
 

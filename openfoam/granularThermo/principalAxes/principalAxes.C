@@ -73,7 +73,7 @@ static scalar leftOut(const scalar Kxx, const scalar Kyy, const scalar Kxy)
 }
 
 
-//- The same of all three components beside the diagonal
+//- The same of all three components off the diagonal
 static scalar leftOut(const symmTensor& K)
 {
     if (K.xz() == 0 && K.yz() == 0)

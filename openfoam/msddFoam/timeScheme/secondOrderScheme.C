@@ -205,7 +205,7 @@ void Foam::timeSchemes::secondOrder::updateTemperatureRange()
         }
     }
     heat_.flow().extend(record.leastT, record.mostT);
-    // On all processes alike, because the size of the steps follows from it
+    // On all processes equally, because the size of the steps follows from it
     reduce(record.leastT, minOp<scalar>());
     reduce(record.mostT, maxOp<scalar>());
 }

@@ -21,7 +21,7 @@ pub struct Row {
 /// How bands do on rows.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Coverage {
-    /// Share of the values inside, all scenes alike, and that of the worst scene.
+    /// Share of the values inside, of all scenes equally, and that of the worst scene.
     pub inside: f64,
     pub worst: f64,
     /// Half of the band over the standard deviation between packings: median over the scenes.
@@ -32,7 +32,7 @@ pub struct Coverage {
 const REPETITIONS: usize = 60;
 
 /// Fits the numbers. The packing's are those of the differences of the packings from their mean, the model's those of the means,
-/// both by maximum likelihood, scenes weighted alike; the factor is such that [`LEVEL`] of the values of scenes that are left out
+/// both by maximum likelihood, scenes weighted equally; the factor is such that [`LEVEL`] of the values of scenes that are left out
 /// of the fit one after the other lie inside.
 pub fn fit(rows: &[Row]) -> Numbers {
     let mut left_out = Vec::new();

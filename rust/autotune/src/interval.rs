@@ -79,7 +79,7 @@ pub struct MeanBand {
     pub factor: Option<f64>,
 }
 
-/// The bands of a run, of the quantities that the law knows and the mesh has. `space`: error of its cells at points and times.
+/// The bands of a run, of the quantities that the law covers and the mesh has. `space`: error of its cells at points and times.
 pub fn bands(scene: &UserCase, run: &Outcome, seen: &Differences, space: &Values, law: &Law) -> Vec<Band> {
     let lengths = Lengths::new(&scene.bed, run, &seen.sensitivity);
     let mut bands = Vec::new();

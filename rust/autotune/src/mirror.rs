@@ -258,7 +258,7 @@ fn conditions(field: &Dictionary, low: &str, high: &str) -> Option<[String; 2]> 
     Some([of(low)?, of(high)?])
 }
 
-/// Whether two walls hold the grains alike; walls that move are left out.
+/// Whether two walls hold the grains equally; walls that move are left out.
 fn walls(grains: &Dictionary, low: &str, high: &str) -> bool {
     let Ok(equilibrium) = grains.dictionary_at("equilibriumCoeffs") else { return true };
     let Ok(walls) = equilibrium.dictionary_at("walls") else { return true };

@@ -4,7 +4,7 @@ use crate::ChoiceError;
 use std::path::Path;
 use std::process::Command;
 
-/// OpenFOAM's programs have to be told where Debian's package has its `etc/`.
+/// OpenFOAM's programs need to know where Debian's package has its `etc/`.
 const DEBIAN_PROJECT_DIR: &str = "/usr/share/openfoam";
 /// Number of last lines that stand for a message, where a program ends without one.
 const LAST: usize = 4;

@@ -60,7 +60,7 @@ pub struct Beyond {
 }
 
 impl Beyond {
-    /// As the solver's summary tells it.
+    /// As the solver's summary reports it.
     fn read(summary: &serde_json::Value) -> Option<Self> {
         let compared = &summary["compared"];
         let what = compared["beyond"].as_array()?.iter().filter_map(|part| part.as_str().map(str::to_string));

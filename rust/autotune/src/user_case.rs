@@ -129,7 +129,7 @@ pub struct UserCase {
     /// Points at which runs are compared \[m\].
     pub points: Vec<[f64; 3]>,
     pub bed: BandInputs,
-    /// Factor of the conductivity that the case asks for.
+    /// Factor of the conductivity that the case requests.
     pub conductivity_factor: f64,
     /// Name of its model, if it is of the type `network`, in whose place a constant conductivity can be taken.
     pub model: Option<String>,

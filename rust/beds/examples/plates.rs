@@ -1,4 +1,4 @@
-//! A plate beside a bed of spheres: direct solutions by random walks, beside the law of plates and the network:
+//! A plate next to a bed of spheres: direct solutions by random walks, compared with the law of plates and the network:
 //! `plates [SPHERES] [SEED] [WALKS]`.
 //!
 //! Spheres are poured on a floor that repeats itself along x and y; then a lid is pressed on. A plate is laid at floor, free surface and lid,

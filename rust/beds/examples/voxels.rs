@@ -1,4 +1,4 @@
-//! Conductivity of packings of spheres by solutions of the heat equation, beside the network and the closed forms:
+//! Conductivity of packings of spheres by solutions of the heat equation, compared with the network and the closed forms:
 //! `voxels SPHERES SEEDS VOXELS`. Each packing is solved with VOXELS along an edge and with
 //! 2/3 and 4/9 of that, and extrapolated as a geometric series (Aitken): where spheres touch, the error falls with a power of the
 //! voxels that is 1 for poor conductors and less for good ones.

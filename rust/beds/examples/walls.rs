@@ -2,8 +2,8 @@
 //!
 //! Spheres are poured into a box, a lid is pressed on, and heat is led from the lid to the floor through contacts and gas. A straight
 //! line through the temperatures far from both gives the conductivity K and, prolonged to floor and lid, the difference of temperature
-//! that each takes, over the heat flux: its resistance beside a bed that conducts alike up to its surface. It is printed in
-//! diameters of the bed (times K/d), beside what the law of walls gives ([`msdd_beds::wall`]), whose one number, the spheres at
+//! that each takes, over the heat flux: its resistance next to a bed that conducts equally up to its surface. It is printed in
+//! diameters of the bed (times K/d), compared with what the law of walls gives ([`msdd_beds::wall`]), whose one number, the spheres at
 //! the wall on d², is counted: those nearer than half a radius.
 //!
 //! By radiation alone the exchange is traced ([`msdd_beds::exchange`]); resistances are in units of 1/(4 σ T³), and F is that of the bed. The law

@@ -117,7 +117,7 @@ fn standard_error(points: &[(f64, f64)]) -> f64 {
     if points.len() > 2 { (off / (n - 2.0) * (1.0 / n + x * x / xx)).sqrt() } else { f64::NAN }
 }
 
-/// Whether the least-squares parabola through four points or more bends down: what is left of y beside a line goes against what is
+/// Whether the least-squares parabola through four points or more bends down: what is left of y less a line goes against what is
 /// left of x².
 fn concave(points: &[(f64, f64)]) -> Option<bool> {
     let left = |points: &[(f64, f64)]| {

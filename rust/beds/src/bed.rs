@@ -66,7 +66,7 @@ pub struct Heated {
     pub steps: u64,
 }
 
-/// Pours, presses and turns. `watch` is told the stage, and how far it has come, from 0 to 1.
+/// Pours, presses and turns. `watch` receives the stage, and how far it has come, from 0 to 1.
 ///
 /// # Errors
 /// Those of the stages; a stage that does not come to rest.
@@ -227,10 +227,10 @@ impl Bed {
         slab(&self.simulation, &network, &wall, between, width, case.time.initial_temperature)
     }
 
-    /// Heats. `watch` is told how far it has come, from 0 to 1.
+    /// Heats. `watch` receives how far it has come, from 0 to 1.
     ///
     /// # Errors
-    /// No grain beside the plate; a probe without grains; heat that does not converge.
+    /// No grain next to the plate; a probe without grains; heat that does not converge.
     pub fn heat(
         &self,
         case: &BedCase,

@@ -1,4 +1,4 @@
-//! A bed whose walls move while heat flows through it: grains grow with their temperature, walls give way or follow a path, and
+//! A bed whose walls move while heat flows through it: grains grow with their temperature, walls yield or follow a path, and
 //! contacts conduct as they are pressed.
 //!
 //! The grains are poured with `simulated_young_modulus`, the lid is pressed on, and then they harden to `young_modulus` while the lid
@@ -46,13 +46,13 @@ const AT_REST: f64 = 1e-3;
 /// The least share of an interval by which they change at a time is an even part of it over this.
 const PARTS: u64 = 20;
 /// Times the steps of the motion after which what is left of it is hurried although the bed lags. Contacts slide then that would not
-/// slide in a bed at rest: one that needs 90 times its steps, and was hurried after 20 times, bore a fifth too little across its load.
+/// slide in a bed at rest: one that needs 90 times its steps, and was hurried after 20 times, carried a fifth too little across its load.
 const LONGEST: u64 = 400;
 /// Times the steps of the rest after which an interval ends although the bed is not at rest: some creep for long.
 const LONGEST_REST: u64 = 100;
 
 /// Overlap of a contact over the radius above which Hertz's law is an extrapolation, and above which it has no meaning. It holds for
-/// contacts small beside the spheres (K. L. Johnson, Contact Mechanics, 1985, section 4.2): at these the contact's radius is 0.16 and 0.35
+/// contacts small compared with the spheres (K. L. Johnson, Contact Mechanics, 1985, section 4.2): at these the contact's radius is 0.16 and 0.35
 /// of that of the spheres.
 pub const MAX_OVERLAP: f64 = 0.05;
 const ABSURD_OVERLAP: f64 = 0.25;
@@ -86,7 +86,7 @@ pub struct Row {
     pub strain: [f64; 3],
     /// In the region.
     pub porosity: f64,
-    /// Between its heights, from its radius to where the centres of the first layer beside the side are, or to the side if that resists;
+    /// Between its heights, from its radius to where the centres of the first layer next to the side are, or to the side if that resists;
     /// NaN in a box.
     pub porosity_outside: f64,
     pub coordination: f64,
@@ -133,7 +133,7 @@ impl Row {
     }
 }
 
-/// Tangential over normal force of the side of a cylinder on the grains, above 0 where it holds the bed down: what the floor bears
+/// Tangential over normal force of the side of a cylinder on the grains, above 0 where it holds the bed down: what the floor carries
 /// more than lid and weight comes from the side. `None` without a side.
 pub fn side_friction(scene: &BedCase, row: &Row) -> Option<f64> {
     let [floor, side, lid] =
@@ -162,7 +162,7 @@ pub struct Run {
     pub restless: u64,
 }
 
-/// Pours, presses the lid on, and hardens. `watch` is told the stage, and how far it has come, from 0 to 1.
+/// Pours, presses the lid on, and hardens. `watch` receives the stage, and how far it has come, from 0 to 1.
 ///
 /// # Errors
 /// Those of the stages; a stage that does not come to rest.
@@ -219,7 +219,7 @@ struct Coupled<'a> {
     run: Run,
 }
 
-/// Heats and moves. `watch` is told how far it has come, from 0 to 1.
+/// Heats and moves. `watch` receives how far it has come, from 0 to 1.
 ///
 /// # Errors
 /// A distance without grains; heat that does not converge; those of [`Simulation::run`].
@@ -412,7 +412,7 @@ impl<'a> Coupled<'a> {
         (along + self.weight()).abs() / self.load()
     }
 
-    /// What is not in balance over the load: along z, and on walls that give way.
+    /// What is not in balance over the load: along z, and on compliant walls.
     fn lag(&self) -> f64 {
         let walls = [Some(&self.lid), self.shell.as_ref()].into_iter().flatten();
         let pressure = self.load() / self.area();

@@ -8,7 +8,7 @@
 //! That is right for spheres that conduct much better than the gas. Where κ = k_s/k_g is below [`POOR`], as of ceramics in helium, heat
 //! does not go from sphere to sphere along straight lines, and κ_g is [`poor_spheres`] instead, a fit to direct solutions of the heat
 //! equation (`examples/direct/voxels.rs`). A contact then adds less than its own conductance, because without it heat would go through the thin
-//! gas around it. Batchelor and O'Brien (Proc. R. Soc. A 355, 313, 1977) found, for a contact of the radius a, 0.22 λ² in place of 2λ/π
+//! gas around it. Batchelor and O'Brien (Proc. R. Soc. A 355, 313, 1977) found, for a contact of the radius a, 0.22 λ² instead of 2λ/π
 //! (both over π k_g R) where λ = κ a/R is small; in between λ/(λ + 2.9) of the contact's conductance is taken, which has both ends. Between
 //! [`POOR`] and [`GOOD`] the two descriptions are mixed by the logarithm of κ.
 
@@ -116,7 +116,7 @@ pub fn closure_error(ratio: f64) -> f64 {
         .map_or(0.1, |(_, error)| *error)
 }
 
-/// What the conductivity of a bed depends on, beside its material.
+/// What the conductivity of a bed depends on, apart from its material.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BedState {
     /// \[Pa\]
@@ -165,7 +165,7 @@ impl BedMaterial {
         libm::log(self.radius / gas.least_distance(self.radius, self.solid.conductivity))
     }
 
-    /// Whether the law knows the gas between these spheres. `range`: of the number of a gas, which is that of the law of pairs, which
+    /// Whether the law covers the gas between these spheres. `range`: of the number of a gas, which is that of the law of pairs, which
     /// poor conductors do not have.
     pub fn knows(&self, gas: &Gas, [low, high]: [f64; 2]) -> bool {
         let inside = (low..=high).contains(&self.gas_number(gas)) || self.share_of_pairs(gas) == 0.0;
@@ -309,7 +309,7 @@ mod tests {
             let at = |pressure: f64| {
                 let material = BedMaterial { solid, gas: GasName::Helium, gas_pressure: pressure, ..steel() };
                 let helium = material.gas_at(573.0).expect("no vacuum");
-                // As the law answers, which knows the gas of numbers from 2.5 on.
+                // As the law answers, which covers the gas of numbers from 2.5 on.
                 let number = material.gas_number(&helium).max(MIN_NUMBER);
                 let gas = pairs(0.6, material.radius * libm::exp(-number), material.radius);
                 let bed = BedState { pressure: 0.0, solid_fraction: 0.6, coordination: 5.0, gas };
@@ -328,7 +328,7 @@ mod tests {
         }
     }
 
-    /// Roughness leaves more of contacts that bear more, and all of smooth ones.
+    /// Roughness leaves more of contacts that carry more, and all of smooth ones.
     #[test]
     fn roughness_counts_less_under_pressure() {
         let bed = steel();

@@ -69,7 +69,7 @@ pub struct Exchange {
     pub areas: Vec<f64>,
     /// What each sphere emits, by absorbers in order; they sum to 1.
     pub spheres: Vec<Vec<Share>>,
-    /// What a wall emits and its area \[m²\], if that is known: of flat walls beside a cell that repeats itself, unless they reflect all.
+    /// What a wall emits and its area \[m²\], if that is known: of flat walls next to a cell that repeats itself, unless they reflect all.
     pub walls: Vec<Option<(f64, Vec<Share>)>>,
     rays: usize,
 }

@@ -113,7 +113,7 @@ mod tests {
     }
 
     /// Equal spheres have the bytes of [`gas_conductance`]. Of 1:2, what is taken off is ¾ of the sum over the rays beyond the smaller
-    /// sphere; near a contact both laws rise alike as h falls.
+    /// sphere; near a contact both laws rise equally as h falls.
     #[test]
     fn unequal_spheres_lose_rays_beyond_the_smaller_one() {
         let (radius, distance) = (4e-3, 2e-5);

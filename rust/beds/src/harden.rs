@@ -1,7 +1,7 @@
 //! From grains that were poured soft, so that steps are long, to grains of their true stiffness.
 //!
 //! Young's modulus grows evenly in its logarithm under a lid that keeps its pressure. The energy that this sets free is that of the
-//! contacts, which is small beside m g r, so hardly a grain changes its place.
+//! contacts, which is small compared with m g r, so hardly a grain changes its place.
 
 use crate::BedError;
 use crate::settle::Rest;
@@ -16,7 +16,7 @@ const MOST: u64 = 10_000;
 const BALANCED: [f64; 2] = [2e-3, 1e-8];
 
 /// Gives the grains the modulus `young_modulus` \[Pa\] under wall `lid`, which presses with `pressure` \[Pa\] on an area \[m²\]; the bed is
-/// `depth` \[m\] deep. `watch` is told how far it has come, from 0 to 1.
+/// `depth` \[m\] deep. `watch` receives how far it has come, from 0 to 1.
 ///
 /// # Errors
 /// Those of [`Simulation::run`].

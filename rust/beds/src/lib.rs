@@ -12,7 +12,7 @@
 //! | [`pour`](mod@pour) | grains rain into a box or cylinder until they are at rest |
 //! | [`press`](mod@press) | a wall that is pressed onto a bed |
 //! | [`mod@harden`] | grains that were poured soft get their stiffness under a lid |
-//! | [`wall_control`] | walls that move on a path, under a pressure, or as a shell gives way |
+//! | [`wall_control`] | walls that move on a path, under a pressure, or with the compliance of a shell |
 //! | [`pack`](mod@pack) | compression of a periodic box to a pressure |
 //! | [`schedule`] | a quantity that is given over time |
 //! | [`property`] | properties by temperature |

@@ -82,7 +82,7 @@ mod tests {
         let found = mobilisation(&rough, |_| true);
         assert!((0.4..0.7).contains(&found), "{found}");
         assert_eq!(mobilisation(&rough, |_| false), 0.0);
-        // Half of the box is alike.
+        // Half of the box is equal.
         let half = mobilisation(&rough, |[x, ..]| x < 0.5 * rough.cell().unwrap().volume().cbrt());
         assert!((half - found).abs() < 0.15, "{half} {found}");
     }

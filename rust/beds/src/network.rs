@@ -65,7 +65,7 @@ pub struct Joint {
     pub radius: f64,
 }
 
-/// A sphere beside a plate.
+/// A sphere next to a plate.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Beside {
     pub plate: usize,

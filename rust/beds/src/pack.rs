@@ -1,4 +1,4 @@
-//! Packing: a periodic box of spheres is compressed until it bears a pressure, isotropically or along given axes.
+//! Packing: a periodic box of spheres is compressed until it carries a pressure, isotropically or along given axes.
 //!
 //! Friction while packing decides how dense the packing gets: from a solid fraction of 0.64 without friction to 0.57.
 
@@ -22,7 +22,7 @@ const LOOK_EVERY: u64 = 20;
 /// Largest strain rate over √(p/ρ)/d, the inertial number of the compression. Not settled by any reference; chosen because
 /// from 3e-3 to 3e-2 the solid fraction changes by at most 0.006 and the coordination by at most 0.1.
 const FASTEST: f64 = 1e-2;
-/// Strain rate over that largest one, per relative error of the pressure, once the spheres bear it.
+/// Strain rate over that largest one, per relative error of the pressure, once the spheres carry it.
 const GAIN: f64 = 0.1;
 /// Drag over √(p/ρ)/d once they do.
 const DRAG: f64 = 1.0;

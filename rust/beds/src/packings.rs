@@ -111,7 +111,7 @@ mod tests {
         assert!(joined.mean.starts_with("# DEM: mean of 2 packings, seeds 3 4;"));
         assert_eq!(at_start(&joined.mean, "T_0.01"), Some(300.0));
         assert_eq!((at_start(A, "radius"), at_start(A, "fabric_1")), (None, None));
-        // One packing is its own mean, and tells nothing of the scatter.
+        // One packing is its own mean, and says nothing about the scatter.
         let alone = join(&[3], &[A.to_string()]).unwrap();
         assert_eq!(rows(&alone.mean), ["time,T_0.01,radius", "0,300,", "60,310.5,"]);
         assert_eq!(rows(&alone.scatter)[2], "60,0,");

@@ -45,7 +45,7 @@ pub struct Facing {
 }
 
 impl Facing {
-    /// Conductance over k_g \[m\], with e \[m\]. In a ring l is taken to be linear in ρ², which is exact where it matters, beside a
+    /// Conductance over k_g \[m\], with e \[m\]. In a ring l is taken to be linear in ρ², which is exact where it matters, next to a
     /// contact.
     pub fn size(&self, extra: f64) -> f64 {
         let ring = |ring: &Ring| {
@@ -102,7 +102,7 @@ pub fn facing(simulation: &Simulation, wall: usize) -> Vec<Facing> {
     all
 }
 
-/// Spheres with a part of the side of a cylinder of this axis and radius, between the other walls. No images: a cell beside a cylinder
+/// Spheres with a part of the side of a cylinder of this axis and radius, between the other walls. No images: a cell next to a cylinder
 /// does not repeat itself.
 fn around(simulation: &Simulation, side: &Wall, (axis, radius): ([f64; 3], f64)) -> Vec<Facing> {
     let spheres = &simulation.spheres;
@@ -407,7 +407,7 @@ mod tests {
         assert!(narrow > 1.05 * wide, "{narrow} {wide}");
     }
 
-    /// A sphere behind another one has no part; one beside it shares the plate evenly.
+    /// A sphere behind another one has no part; one next to it shares the plate evenly.
     #[test]
     fn a_hidden_sphere_gets_nothing() {
         let walls = || Boundary::Walls(sides([4.0, 2.0]));

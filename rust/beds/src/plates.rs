@@ -1,4 +1,4 @@
-//! By how much the spheres beside two plates give way.
+//! The slack of spheres next to two plates.
 //!
 //! Spheres at a plate find no hold: a bed between plates is shortened by more than its strain. What the plates have moved towards each other
 //! beyond the strain of the inside times the depth is ascribed to an extra thickness of bed at each plate, which is strained as

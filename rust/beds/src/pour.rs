@@ -86,7 +86,7 @@ impl Container {
         }
     }
 
-    /// Whether a sphere fits beside the walls at a place.
+    /// Whether a sphere fits next to the walls at a place.
     fn holds(&self, [x, y]: [f64; 2], sphere: f64) -> bool {
         match *self {
             Self::Box { .. } | Self::Endless { .. } => true,
@@ -210,7 +210,7 @@ impl Pouring {
     }
 }
 
-/// Pours. The lid is left above the column that the grains came from. `watch` is told the agitation
+/// Pours. The lid is left above the column that the grains came from. `watch` receives the agitation
 /// ([`crate::settle::agitation`]).
 ///
 /// # Errors

@@ -20,7 +20,7 @@ const BALANCED: [f64; 2] = [2e-3, 1e-8];
 const CLOSING: f64 = 3e-3;
 
 /// Presses wall number `wall` with `pressure` \[Pa\] on `area` \[m²\], for at most `longest` \[s\], and leaves it at rest where it is
-/// then. First it is moved to where it just touches the nearest grain, if that is in front of it. `watch` is told the
+/// then. First it is moved to where it just touches the nearest grain, if that is in front of it. `watch` receives the
 /// agitation of the bed.
 ///
 /// # Errors
@@ -66,7 +66,7 @@ pub fn press(
 }
 
 /// Moves wall number `lid`, which faces down, to `depth` \[m\] above z = 0, and lets the bed come to rest for at most `longest` \[s\].
-/// `watch` is told the agitation of the bed.
+/// `watch` receives the agitation of the bed.
 ///
 /// # Errors
 /// A wall that is not flat; a bed that the lid does not touch there; those of [`Simulation::run`].

@@ -86,7 +86,7 @@ impl Dark {
     }
 }
 
-/// K_rad \[W/(m K)\] of a bed that conducts `bed.conductivity` with it, in place of without it.
+/// K_rad \[W/(m K)\] of a bed that conducts `bed.conductivity` with it, instead of without it.
 pub fn part(bed: &Dark, black: f64, emissivity: f64) -> f64 {
     let total = bed.conductivity;
     let with = |conductivity: f64| Dark { conductivity, ..*bed }.radiation(black, emissivity);

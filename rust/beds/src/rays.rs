@@ -141,7 +141,7 @@ impl Enclosure {
         minus(plus(self.centres[to], 1.0, self.lattice.displacement(shift)), self.centres[from])
     }
 
-    /// Area of a flat wall \[m²\], if it is as large as the cell that repeats itself beside it.
+    /// Area of a flat wall \[m²\], if it is as large as the cell that repeats itself next to it.
     pub fn wall_area(&self, wall: usize) -> Option<f64> {
         let Surface::Flat { .. } = self.walls[wall].surface else { return None };
         let [a, b, _] = self.lattice.edges;

@@ -58,7 +58,7 @@ pub fn progress(agitation: f64) -> f64 {
     ((begin.ln() - agitation.max(AT_REST).ln()) / (begin.ln() - AT_REST.ln())).clamp(0.0, 1.0)
 }
 
-/// Runs until the spheres are at rest, at most for `longest` \[s\]. `watch` is told the agitation.
+/// Runs until the spheres are at rest, at most for `longest` \[s\]. `watch` receives the agitation.
 ///
 /// # Errors
 /// Those of [`Simulation::run`].

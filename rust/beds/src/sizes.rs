@@ -187,7 +187,7 @@ pub const MAX_SPREAD: f64 = 0.25;
 const DENSER: f64 = 0.62;
 const MORE_GAS: f64 = 1.0;
 
-/// φ over that of unequal spheres of the packing of equal ones that bears stress and conducts by contacts alike.
+/// φ over that of unequal spheres of the packing of equal ones that carries stress and conducts by contacts equally.
 pub fn equal_density(spread: f64) -> f64 {
     1.0 - DENSER * spread * spread
 }

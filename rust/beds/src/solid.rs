@@ -45,7 +45,7 @@ pub struct Solid {
 }
 
 impl Solid {
-    /// Conductance over k_s \[m\] of a contact that bears `force` \[N\]: 2 a if it is smooth.
+    /// Conductance over k_s \[m\] of a contact that carries `force` \[N\]: 2 a if it is smooth.
     pub fn contact_size(&self, force: f64, effective_radius: f64) -> f64 {
         let a = contact_radius(force, effective_radius, self.effective_modulus);
         match self.roughness {
@@ -71,7 +71,7 @@ pub fn peak_stress(force: f64, a: f64) -> f64 {
     1.5 * force / (PI * a * a)
 }
 
-/// What the contacts of a bed bear, against what the material can.
+/// What the contacts of a bed carry, against what the material can.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PeakStress {
     /// Largest p0 of all contacts \[Pa\], and the force \[N\] there.

@@ -41,6 +41,11 @@ pub static FORCE: Kind = Kind { name: "a force", units: &[("N", 1.0, 0.0), ("kN"
 pub static RATIO: Kind = Kind { name: "a number", units: &[("", 1.0, 0.0)] };
 
 impl Kind {
+    /// The unit of a plain number; empty for ratios.
+    pub fn unit(&self) -> &'static str {
+        self.units.first().map_or("", |unit| unit.0)
+    }
+
     /// What a text may be, for messages.
     pub fn allowed(&self) -> String {
         let units: Vec<&str> = self.units.iter().map(|unit| unit.0).filter(|unit| !unit.is_empty()).collect();

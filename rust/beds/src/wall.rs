@@ -1,7 +1,7 @@
 //! What a wall adds to the resistance of a bed of spheres.
 //!
 //! A bed is taken as a body of the conductivity K up to its surface. The spheres at a wall pass heat to it through their contacts
-//! and through the gas beside these, by the laws of [`crate::solid`] and [`crate::gas`]. With n spheres on d² of the wall, each of which bears
+//! and through the gas next to these, by the laws of [`crate::solid`] and [`crate::gas`]. With n spheres on d² of the wall, each of which carries
 //! the force p d²/n, that is the conductance per area h = n (G_contact + G_gas)/d² between the wall and the centres of these
 //! spheres, which lie R away from it. The body has conducted over this distance, too: so what the wall adds is R_w = 1/h − R/K, or
 //! nothing if that is negative.
@@ -9,17 +9,17 @@
 //! Radiation goes from the wall to spheres of several layers, and adds h_r = 4 σ T³/(1/ε_w − 0.44 + 0.335/F) to h, with the emissivity ε_w of
 //! the wall and K_rad = 4 σ T³ d F of the bed. Found by ray tracing in a bed of 1000 spheres that was poured on a floor, with spheres of
 //! one temperature each: for emissivities of wall and spheres from 0.2 to 1, R_w is within 0.1/(4 σ T³), or 2 %, of what the network has.
-//! Without the bed's own half diameter it is the jump of temperature beside a dense cloud, 1/ε_w − 1/2 (Deissler, J. Heat Transfer 86, 240, 1964),
-//! less 0.165/F, because the layers beside a wall are loose.
+//! Without the bed's own half diameter it is the jump of temperature next to a dense cloud, 1/ε_w − 1/2 (Deissler, J. Heat Transfer 86, 240, 1964),
+//! less 0.165/F, because the layers next to a wall are loose.
 //!
 //! Beside a floor along which spheres were poured, with n = 0.87 (counted are gaps up to half a radius), this h is 2 to 11 % above that of the
-//! network, whose plate is shared by all spheres that see it ([`crate::plate_view_areas`]): not all n spheres bear (`examples/walls.rs`).
+//! network, whose plate is shared by all spheres that see it ([`crate::plate_view_areas`]): not all n spheres carry (`examples/walls.rs`).
 
 use crate::effective::BedMaterial;
 use crate::gas::plate_conductance;
 use crate::solid::{Roughness, Solid};
 
-/// The surface of a wall beside a bed.
+/// The surface of a wall next to a bed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Wall {
     /// k \[W/(m K)\] of the wall; none: its surface has one temperature.
@@ -51,7 +51,7 @@ impl Wall {
         self.spheres * (contact + by_gas) / (diameter * diameter)
     }
 
-    /// R_w \[m² K/W\] beside a bed that conducts `conductivity` \[W/(m K)\] across the wall, 0 at least. Infinite where nothing
+    /// R_w \[m² K/W\] next to a bed that conducts `conductivity` \[W/(m K)\] across the wall, 0 at least. Infinite where nothing
     /// conducts.
     pub fn resistance(
         &self,
@@ -111,7 +111,7 @@ mod tests {
         let a = (0.75 * force * 1e-3 / 1.09e11).cbrt();
         let found = SMOOTH.conductance(&bed, 1e4, 300.0);
         assert!((found / (2.0 * a * 42.0 / 4e-6) - 1.0).abs() < 1e-12, "{found}");
-        // Eight times the pressure, twice the conductance; fewer spheres that bear more each: n^(2/3).
+        // Eight times the pressure, twice the conductance; fewer spheres that carry more each: n^(2/3).
         assert!((SMOOTH.conductance(&bed, 8e4, 300.0) / found - 2.0).abs() < 1e-12);
         let few = Wall { spheres: 0.125, ..SMOOTH };
         assert!((few.conductance(&bed, 1e4, 300.0) / found - 0.25).abs() < 1e-12);

@@ -1,6 +1,6 @@
-//! Walls that move while a bed is heated: along a given path, under a given pressure, or as the shell of a vessel gives way.
+//! Walls that move while a bed is heated: along a given path, under a given pressure, or with the compliance of a shell.
 //!
-//! A wall that gives way moves as a body of the mass of some layers of grains, pushed by the grains on one side and by what holds it
+//! A compliant wall moves as a body of the mass of some layers of grains, pushed by the grains on one side and by what holds it
 //! on the other, and stopped by the same drag as the grains; only where it comes to rest counts. A thin shell (thickness t, radius R,
 //! Young's modulus E_w) holds with the pressure p₀ + E_w t/R² (u − u_T), where u is what its radius has grown by, u_T = α_w (T − T₀) R is its
 //! own expansion, and p₀ the pressure of the grains at the start (Timoshenko & Woinowsky-Krieger, Theory of Plates and Shells, 1959,
@@ -13,10 +13,10 @@ use std::f64::consts::PI;
 /// Steps between two looks at the time step, and between two changes of the velocities of walls.
 pub(crate) const BLOCK: u64 = 50;
 const FEW: u64 = 5;
-/// Mass of a wall that gives way, in layers of grains.
+/// Mass of a compliant wall, in layers of grains.
 const LAYERS: f64 = 8.0;
 
-/// What holds a wall that gives way.
+/// What holds a compliant wall.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum WallControl {
     /// It is where it is said to be: moved towards the grains by this since the start \[m\].
@@ -118,7 +118,7 @@ impl Moving {
     }
 }
 
-/// Takes [`BLOCK`] steps, in which the walls are steered by `steer` every few: it is told the time that these take, and what is left of the
+/// Takes [`BLOCK`] steps, in which the walls are steered by `steer` every few: it receives the time that these take, and what is left of the
 /// block \[s\].
 ///
 /// # Errors
@@ -168,9 +168,9 @@ mod tests {
     }
 
     /// Seven spheres in a shell, one in the middle of six, grow. In the middle of each pair, and on the shell, Hertz's law holds; a sphere
-    /// of the ring is pushed outwards by the one in the middle and, each by half, by its two neighbours; the shell gives way by R²/(E_w t) p.
+    /// of the ring is pushed outwards by the one in the middle and, each by half, by its two neighbours; the shell yields by R²/(E_w t) p.
     #[test]
-    fn a_shell_gives_way_to_spheres_that_grow_as_it_should() {
+    fn a_shell_yields_to_spheres_that_grow_as_it_should() {
         let (radius, height, stiffness, growth) = (3.0 * RADIUS, 0.02, 3e9, 1e-2);
         let mut places = vec![[0.0; 3]];
         places.extend((0..6).map(|k| {
@@ -201,7 +201,7 @@ mod tests {
         assert!((found / (6.0 * force) - 1.0).abs() < 1e-4, "{found} {}", 6.0 * force);
         let moved = radius - shell.moved;
         assert!(((moved - radius) / (place - radius) - 1.0).abs() < 1e-4, "{moved} {place}");
-        // It gives way by a good part of what a rigid one would not.
+        // It moves by a good part of what a rigid one would not.
         assert!((place - radius) / (3.0 * growth * RADIUS) > 0.1, "{place}");
     }
 

@@ -111,7 +111,7 @@ fn from_pouring_to_temperatures() {
     assert!(stored[0] > 1.2 * stored[1], "{stored:?}");
 }
 
-/// A lid that stops at a porosity stands where that says, and the bed bears what it presses with; one that would not touch the bed is refused,
+/// A lid that stops at a porosity stands where that says, and the bed carries what it presses with; one that would not touch the bed is refused,
 /// as are both keys together and neither.
 #[test]
 fn a_lid_closes_to_a_porosity() {

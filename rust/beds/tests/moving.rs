@@ -77,7 +77,7 @@ fn bed(parts: [&str; 4]) -> (BedCase, Prepared, Run) {
     (scene, prepared, found)
 }
 
-/// The lid goes where it is told; what the bed bears above and below is in balance, and is the stress in its middle; heat is kept.
+/// The lid follows its path; what the bed carries above and below is in balance, and is the stress in its middle; heat is kept.
 #[test]
 fn a_column_is_pressed_and_heated() {
     let (_, _, found) = bed([ENDLESS, "strain = [[0, 0], [400, 1e-3], [1200, 5e-4]]", FLOOR, COLUMN]);
@@ -118,7 +118,7 @@ fn a_bed_at_rest_stays_at_rest() {
     assert_eq!(first.depth, last.depth);
 }
 
-/// What spheres press each other with as they harden leaves through the lid, although the wall around them is rough: the floor bears
+/// What spheres press each other with as they harden leaves through the lid, although the wall around them is rough: the floor carries
 /// the lid and the weight.
 #[test]
 fn rough_walls_hold_no_stress_of_the_hardening() {
@@ -143,7 +143,7 @@ fn rough_walls_hold_no_stress_of_the_hardening() {
 
 /// The shell stands where its stiffness and the pressure on it say, and a warm one beyond that; the lid keeps its pressure.
 #[test]
-fn a_shell_gives_way() {
+fn a_shell_yields() {
     let heated = "[[heated]]\nwall = \"side\"\ntemperature = [[0, 293.15], [400, 323.15]]\n\
                   [shell]\nyoung_modulus = 2e9\nthickness = 1e-3\nthermal_expansion = 2e-6";
     let record = "wall = \"side\"\ndistances = [0.008]\nheights = [0.012, 0.04]\nradius = 0.014";
@@ -181,8 +181,8 @@ fn a_bed_waits_where_it_lags() {
     assert_eq!((found.intervals, found.hurried, found.restless), (6, 0, 0));
 }
 
-/// A lid that keeps a small pressure while the spheres swell by much in few steps: the bed bears across what it does with many steps.
-/// Hurried after 20 times the steps, as it once was, it bears 9 % less.
+/// A lid that keeps a small pressure while the spheres swell by much in few steps: the bed carries across what it does with many steps.
+/// Hurried after 20 times the steps, as it once was, it carries 9 % less.
 #[test]
 fn few_steps_do_not_hurry_a_bed() {
     let heated = ["floor", "lid"]
@@ -229,7 +229,7 @@ fn a_bed_without_sides_is_strained_across() {
     }
     let [x, y, z] = [0, 1, 2].map(|k| last.stress[k] / first.stress[k]);
     assert!(z > 2.0 && (x / z - 1.0).abs() < 0.1 && (y / z - 1.0).abs() < 0.1, "{first:?} {last:?}");
-    // Floor and lid bear the stress inside on a base that is smaller now.
+    // Floor and lid carry the stress inside on a base that is smaller now.
     assert!((0.5 * (last.walls[0] + last.walls[1]) / last.stress[2] - 1.0).abs() < 0.05, "{last:?}");
 }
 

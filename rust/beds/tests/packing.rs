@@ -94,7 +94,7 @@ fn bad_input_names_key_value_and_range() {
 }
 
 /// The work of a slow deformation, −V σ : L dt, is what the contacts of an elastic packing without friction store. The
-/// path compresses, stretches and shears, little enough that no contacts give way.
+/// path compresses, stretches and shears, little enough that no contacts yield.
 #[test]
 fn work_of_a_deformation_is_stored() {
     let mut simulation = pack(&packing(0.0)).unwrap().simulation;

@@ -1,5 +1,5 @@
 //! Beds that were poured: at rest, their weight borne, the same for the same seed whatever the threads; the walls of a
-//! cylinder and a lid bear what balances and Janssen say.
+//! cylinder and a lid carry what balances and Janssen say.
 
 use msdd_beds::BedError;
 use msdd_beds::pour::{Container, Pouring, pour};
@@ -34,7 +34,7 @@ fn weight(simulation: &Simulation) -> f64 {
     G * simulation.spheres.iter().map(|sphere| sphere.mass).sum::<f64>()
 }
 
-/// All walls together bear the weight, and nothing along the other axes.
+/// All walls together carry the weight, and nothing along the other axes.
 fn check_balance(simulation: &Simulation, rest: &Rest, up: usize) {
     assert!(rest.at_rest, "{rest:?}");
     let weight = weight(simulation);
@@ -69,7 +69,7 @@ fn unequal_grains_come_to_rest_and_weigh_what_their_sizes_say() {
 }
 
 /// Janssen's experiment: the floor of a tall cylinder sinks a little, so that the grains slide down along the side, whose
-/// friction then bears what his formula says with a ratio of the stresses between 0.4 and 1.
+/// friction then carries what his formula says with a ratio of the stresses between 0.4 and 1.
 #[test]
 fn the_side_of_a_cylinder_bears_a_part() {
     let radius = 0.012;

@@ -23,7 +23,7 @@ fn trace(enclosure: &Enclosure, spheres: f64, walls: &[f64], rays: usize) -> Exc
     exchange(enclosure, &emissivities, &Tracing { rays, seed: 1, threads: 2 }).expect("a room")
 }
 
-/// Two plates at z = 0 and 1 beside a cell of edge 1 that repeats itself, with these spheres between them.
+/// Two plates at z = 0 and 1 next to a cell of edge 1 that repeats itself, with these spheres between them.
 fn between(spheres: &[([f64; 3], f64)]) -> Enclosure {
     let lattice = Lattice { origin: [0.0; 3], edges: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]] };
     let walls =

@@ -113,7 +113,7 @@ fn heat_from_inside_is_a_parabola() {
     );
 }
 
-/// A sphere between two plates that radiate alike ends at the mean of the fourth powers, and what passes is σ (T₁⁴ − T₂⁴) of half of the size.
+/// A sphere between two plates that radiate equally ends at the mean of the fourth powers, and what passes is σ (T₁⁴ − T₂⁴) of half of the size.
 #[test]
 fn a_sphere_radiates_by_fourth_powers() {
     let size = 1e-5;

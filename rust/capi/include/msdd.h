@@ -290,7 +290,7 @@ typedef struct msdd_averages {
 enum msdd_outcome {
     MSDD_SETTLED = 0,  /**< equilibrium: the forces on the grains balance */
     MSDD_CAPPED = 1,   /**< the largest number of time steps was reached before equilibrium */
-    MSDD_UNJAMMED = 2  /**< the packing bears no load any more */
+    MSDD_UNJAMMED = 2  /**< the packing carries no load any more */
 };
 
 /** Packs an RVE. `specification` is a JSON object. Any of its keys, and any key of "material", may be left out and then
@@ -336,7 +336,7 @@ typedef int32_t (*msdd_progress)(void *user, uint64_t done, uint64_t total, uint
 int32_t msdd_database_generate(const char *plan, const char *path, uint32_t threads, msdd_progress progress,
                                void *user);
 
-/** Writes a database as the CSV file `csv`, and beside it a description of its columns and its provenance. *rows (may be
+/** Writes a database as the CSV file `csv`, and next to it a description of its columns and its provenance. *rows (may be
  *  NULL) is set to the number of rows. If the name ends in .gz, the file is compressed. */
 int32_t msdd_database_export_csv(const char *database, const char *csv, uint64_t *rows);
 

@@ -101,7 +101,7 @@ impl BatchModel for Discs {
         let tensor = |columns: Option<InPlane>, cell| {
             columns.map(|([xx, yy], xy)| [xx.at(cell), yy.at(cell), xy.map_or(0.0, |column| column.at(cell))])
         };
-        // Cells often start alike: an answer is found once for a run of equal ones.
+        // Cells often start equal: an answer is found once for a run of equal ones.
         let mut last = None;
         for cell in 0..start.cells {
             let known = InitialData {

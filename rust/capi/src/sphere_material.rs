@@ -48,7 +48,7 @@ const _: () = assert!(GAS_RANGE[0] == MIN_NUMBER);
 /// Solid fraction of a bed next to a wall, which hardly matters for the part of radiation in its conductivity.
 const REFERENCE_SOLID: f64 = 0.6;
 
-/// Least number of contacts per sphere of a packing that bears load.
+/// Least number of contacts per sphere of a packing that carries load.
 const MIN_CONTACTS: f64 = 2.0;
 
 /// A value within its range.

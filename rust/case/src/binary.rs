@@ -16,7 +16,7 @@ pub fn text_of(file: &Path) -> Option<String> {
     (is_binary(&bytes) && find(&bytes, b"List<").is_some()).then(|| as_text(&bytes)).flatten()
 }
 
-/// The bytes of a file, or those of the packed file beside it.
+/// The bytes of a file, or those of the packed file next to it.
 pub fn read(file: &Path) -> Option<Vec<u8>> {
     let packed = file.with_file_name(format!("{}.gz", file.file_name()?.to_str()?));
     let limit = msdd_files::MAX_BYTES;

@@ -24,7 +24,7 @@ impl FieldKind {
     }
 }
 
-/// Boundary conditions of a field that needs none: a wall has the value of the cell beside it.
+/// Boundary conditions of a field that needs none: a wall has the value of the cell next to it.
 const NO_WALLS: &str = "boundaryField\n{\n    #includeEtc \"caseDicts/setConstraintTypes\"\n    \".*\"\n    {\n        \
                         type    zeroGradient;\n    }\n}\n";
 

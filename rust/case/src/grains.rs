@@ -23,8 +23,8 @@ pub struct Grains {
 }
 
 /// What properties of grains may be; so narrow that products of such numbers cannot overflow.
-const GRAIN_VALUES: [f64; 2] = [1e-12, 1e15];
-const GRAIN_EXPANSIONS: [f64; 2] = [0.0, 1.0];
+pub const GRAIN_VALUES: [f64; 2] = [1e-12, 1e15];
+pub const GRAIN_EXPANSIONS: [f64; 2] = [0.0, 1.0];
 
 /// Refuses a value out of range, of [`Grains::named`].
 ///

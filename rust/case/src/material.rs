@@ -2,7 +2,7 @@
 //!
 //! | key | what | required |
 //! |---|---|---|
-//! | `about`, `source` | what it is; where the numbers are from | `about` |
+//! | `about`, `source` | what it is; where the numbers are from | |
 //! | `temperature` | proposed temperature of a bed at the start | |
 //! | `diameter` | of the grains, mean of discs, Sauter mean of spheres | yes |
 //! | `density`, `young_modulus` | of a grain | yes |
@@ -16,9 +16,11 @@
 //! A required value may be given by its option of `msdd case new` instead. Numbers are in SI units, or texts with a unit.
 
 use crate::CaseError;
-use crate::grains::Grains;
-use msdd_beds::property::{Property, VALUES};
+use crate::grains::{GRAIN_EXPANSIONS, GRAIN_VALUES, Grains};
+use crate::spheres::material::{CRUSH_LOADS, HARDNESSES, POISSON_RATIOS};
+use msdd_beds::property::Property;
 use msdd_beds::units::{self, Given, GivenTable, Kind};
+use msdd_rve::message;
 use serde::Deserialize;
 use std::path::Path;
 use std::sync::LazyLock;
@@ -27,7 +29,7 @@ use std::sync::LazyLock;
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Keys {
-    about: String,
+    about: Option<String>,
     source: Option<String>,
     temperature: Option<Given>,
     diameter: Option<Given>,
@@ -41,6 +43,54 @@ struct Keys {
     hardness: Option<Given>,
     emissivity: Option<GivenTable>,
     crush_load: Option<Given>,
+}
+
+/// A key with a value: its kind, and its range in SI units.
+struct Key {
+    name: &'static str,
+    kind: &'static Kind,
+    range: [f64; 2],
+}
+
+macro_rules! keys {
+    ($($constant:ident = $name:literal: $kind:ident, $range:expr;)*) => {
+        $(static $constant: Key = Key { name: $name, kind: &units::$kind, range: $range };)*
+        /// The keys with values, for messages.
+        static KEYS: &[&Key] = &[$(&$constant),*];
+    };
+}
+
+keys! {
+    TEMPERATURE = "temperature": TEMPERATURE, [0.0, 1e5];
+    DIAMETER = "diameter": LENGTH, [2.0 * GRAIN_VALUES[0], 2.0 * GRAIN_VALUES[1]];
+    DENSITY = "density": DENSITY, GRAIN_VALUES;
+    YOUNG_MODULUS = "young_modulus": STRESS, GRAIN_VALUES;
+    THERMAL_CONDUCTIVITY = "thermal_conductivity": CONDUCTIVITY, GRAIN_VALUES;
+    HEAT_CAPACITY = "heat_capacity": HEAT_CAPACITY, GRAIN_VALUES;
+    THERMAL_EXPANSION = "thermal_expansion": EXPANSION, GRAIN_EXPANSIONS;
+    POISSON_RATIO = "poisson_ratio": RATIO, POISSON_RATIOS;
+    ROUGHNESS = "roughness": LENGTH, [0.0, 0.01 * GRAIN_VALUES[1]];
+    HARDNESS = "hardness": STRESS, HARDNESSES;
+    EMISSIVITY = "emissivity": RATIO, [0.0, 1.0];
+    CRUSH_LOAD = "crush_load": FORCE, CRUSH_LOADS;
+}
+
+impl Key {
+    fn allowed(&self) -> String {
+        let unit = if self.kind.unit().is_empty() { String::new() } else { format!(" {}", self.kind.unit()) };
+        // The largest roughness depends on the spheres, which are checked when they are complete.
+        let range = match self.name {
+            "roughness" => "0 to a hundredth of the radius,".to_string(),
+            _ => message::range(self.range),
+        };
+        range + &unit
+    }
+}
+
+/// All keys with their ranges.
+fn all_keys() -> String {
+    let keys: Vec<String> = KEYS.iter().map(|key| format!("{} ({})", key.name, key.allowed())).collect();
+    format!("the keys about, source (texts), {}", keys.join(", "))
 }
 
 /// A material in SI units.
@@ -115,55 +165,52 @@ impl Material {
     /// `file` is for messages.
     fn parse(name: &str, file: &str, text: &str) -> Result<Self, CaseError> {
         let keys: Keys = toml::from_str(text).map_err(|error| {
-            refuse(
-                file.to_string(),
-                error.to_string().trim().to_string(),
-                "the keys of a material".to_string(),
-            )
+            let error = error.to_string();
+            // What serde expected is in the list of all keys, which has their ranges.
+            let problem = error.split(", expected one of").next().unwrap_or_default().trim();
+            refuse(file.to_string(), problem.to_string(), all_keys())
         })?;
-        let wrong = |key: &str, text: &str| {
+        let wrong = |key: &Key, text: &str| {
             let (value, allowed) = text.split_once(", allowed: ").unwrap_or((text, "see above"));
-            refuse(format!("{file}: {key}"), value.to_string(), allowed.to_string())
+            refuse(format!("{file}: {}", key.name), value.to_string(), allowed.to_string())
         };
-        let number = |key: &str, given: &Option<Given>, kind: &Kind| {
-            let value = given.as_ref().map(|given| given.value(kind)).transpose();
-            value.map_err(|text| wrong(key, &text))
-        };
-        let table = |key: &str, given: &Option<GivenTable>, kind: &Kind, values: [f64; 2]| {
+        let number = |key: &Key, given: &Option<Given>| {
             let Some(given) = given else { return Ok::<_, CaseError>(None) };
-            let property = given.property(kind).map_err(|text| wrong(key, &text))?;
+            let value = given.value(key.kind).map_err(|text| wrong(key, &text))?;
+            match (key.range[0]..=key.range[1]).contains(&value) {
+                true => Ok(Some(value)),
+                false => Err(wrong(key, &format!("{}, allowed: {}", message::number(value), key.allowed()))),
+            }
+        };
+        let table = |key: &Key, given: &Option<GivenTable>| {
+            let Some(given) = given else { return Ok::<_, CaseError>(None) };
+            let property = given.property(key.kind).map_err(|text| wrong(key, &text))?;
             // Whether it covers the temperatures of a bed is another question.
             let rows = property.rows();
-            let range = [rows.first(), rows.last()].map(|row| row.copied().unwrap_or_default());
-            property.check(range, values).map_err(|error| wrong(key, &error.to_string()))?;
+            let covered = [rows.first(), rows.last()].map(|row| row.copied().unwrap_or_default());
+            property.check(covered, key.range).map_err(|error| wrong(key, &error.to_string()))?;
             Ok(Some(property))
         };
         let source = keys.source.map_or(String::new(), |source| format!(" ({source})"));
         Ok(Self {
             name: name.to_string(),
-            about: keys.about + &source,
-            temperature: number("temperature", &keys.temperature, &units::TEMPERATURE)?
-                .unwrap_or(REFERENCE_TEMPERATURE),
-            diameter: number("diameter", &keys.diameter, &units::LENGTH)?,
-            density: number("density", &keys.density, &units::DENSITY)?,
-            young_modulus: number("young_modulus", &keys.young_modulus, &units::STRESS)?,
-            thermal_conductivity: table(
-                "thermal_conductivity",
-                &keys.thermal_conductivity,
-                &units::CONDUCTIVITY,
-                VALUES,
-            )?,
-            heat_capacity: table("heat_capacity", &keys.heat_capacity, &units::HEAT_CAPACITY, VALUES)?,
-            thermal_expansion: number("thermal_expansion", &keys.thermal_expansion, &units::EXPANSION)?,
-            poisson_ratio: number("poisson_ratio", &keys.poisson_ratio, &units::RATIO)?,
-            roughness: number("roughness", &keys.roughness, &units::LENGTH)?,
-            hardness: number("hardness", &keys.hardness, &units::STRESS)?,
-            emissivity: table("emissivity", &keys.emissivity, &units::RATIO, [0.0, 1.0])?,
-            crush_load: number("crush_load", &keys.crush_load, &units::FORCE)?,
+            about: keys.about.unwrap_or_else(|| format!("values of {name}.toml")) + &source,
+            temperature: number(&TEMPERATURE, &keys.temperature)?.unwrap_or(REFERENCE_TEMPERATURE),
+            diameter: number(&DIAMETER, &keys.diameter)?,
+            density: number(&DENSITY, &keys.density)?,
+            young_modulus: number(&YOUNG_MODULUS, &keys.young_modulus)?,
+            thermal_conductivity: table(&THERMAL_CONDUCTIVITY, &keys.thermal_conductivity)?,
+            heat_capacity: table(&HEAT_CAPACITY, &keys.heat_capacity)?,
+            thermal_expansion: number(&THERMAL_EXPANSION, &keys.thermal_expansion)?,
+            poisson_ratio: number(&POISSON_RATIO, &keys.poisson_ratio)?,
+            roughness: number(&ROUGHNESS, &keys.roughness)?,
+            hardness: number(&HARDNESS, &keys.hardness)?,
+            emissivity: table(&EMISSIVITY, &keys.emissivity)?,
+            crush_load: number(&CRUSH_LOAD, &keys.crush_load)?,
         })
     }
 
-    /// A required value: that of an option, else that of the file.
+    /// A required value: from an option, else from the file.
     ///
     /// # Errors
     /// It is missing: what would serve.
@@ -180,7 +227,7 @@ impl Material {
         })
     }
 
-    /// The grains with these values instead of those of the file; properties at the proposed temperature.
+    /// The grains with these values, and the others of the file; properties at the proposed temperature.
     ///
     /// # Errors
     /// A value that is in neither.
@@ -266,6 +313,12 @@ mod tests {
     }
 
     #[test]
+    fn the_description_may_be_left_out() {
+        let own = Material::parse("own", "some/own.toml", &OWN.replace("about = \"balls\"\n", "")).unwrap();
+        assert_eq!(own.about, "values of own.toml");
+    }
+
+    #[test]
     fn what_is_missing_or_wrong_is_named() {
         let read = |from: &str, to: &str| Material::parse("own", "own.toml", &OWN.replace(from, to));
         for (from, to, text) in [
@@ -282,9 +335,12 @@ mod tests {
             (
                 "[\"400 C\", 1.4]",
                 "[\"400 C\", -1.4]",
-                "own.toml: thermal_conductivity = -1.4, allowed: 1e-30 to 1e30",
+                "own.toml: thermal_conductivity = -1.4, allowed: 1e-12 to 1e15",
             ),
-            ("density", "densty", "unknown field `densty`"),
+            ("density", "densty", "unknown field `densty`, allowed: the keys about, source (texts), temperature"),
+            ("density", "densty", ", poisson_ratio (-0.99 to 0.5), roughness (0 to a hundredth of the radius, m), hardness (1 to 1e15 Pa), "),
+            ("2.4 g/cm3", "-2.4 g/cm3", "own.toml: density = -2400, allowed: 1e-12 to 1e15 kg/m3"),
+            ("0.22", "0.6", "own.toml: poisson_ratio = 0.6, allowed: -0.99 to 0.5"),
         ] {
             let found = read(from, to).unwrap_err().to_string();
             assert!(found.contains(text), "{found}");

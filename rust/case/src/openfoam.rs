@@ -4,7 +4,7 @@ use msdd_rve::message::shortened;
 use std::path::Path;
 use std::process::Command;
 
-/// The folder with `etc/` in Debian's package; OpenFOAM's programs have to be told where it is.
+/// The folder with `etc/` in Debian's package; OpenFOAM's programs need to know where it is.
 const DEBIAN_PROJECT_DIR: &str = "/usr/share/openfoam";
 
 /// A command that starts one of OpenFOAM's programs.

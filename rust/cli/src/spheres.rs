@@ -73,7 +73,7 @@ fn print_scores(
 fn print_along(found: &[PathErrors], is_trained_on_it: bool) {
     let of = if is_trained_on_it { "packings that were held out" } else { "all packings" };
     outln!(
-        "errors along the paths of {of}, % (scatter between packings that were made and strained alike; errors of the model along their paths)"
+        "errors along the paths of {of}, % (scatter between packings that were made and strained equally; errors of the model along their paths)"
     );
     let columns = ["pressure", "deviator", "K by contacts", "K by gas"];
     out!("{:<11} {:>5} {:>6}", "path", "paths", "states");

@@ -26,7 +26,7 @@ pub const DISCS: usize = 15_000;
 /// paper's porosity of 12.5 %, in which overlaps are counted once. (15 000 discs of the paper's radii have 10.5 % on average,
 /// so they are made 0.05 % larger.)
 pub const SUM_POROSITY: f64 = 0.104;
-/// Area fraction of the discs when they are placed. A denser start makes the sub-regions more alike and the fabric index
+/// Area fraction of the discs when they are placed. A denser start makes the sub-regions more equal and the fabric index
 /// larger.
 const START_DENSITY: f64 = 0.55;
 /// Strain rate of the box [1/s] while grains hardly touch, and below the porosity `DENSE_POROSITY` (overlaps counted twice);

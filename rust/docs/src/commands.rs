@@ -136,7 +136,7 @@ fn place(
     runs
 }
 
-/// Runs the commands of the pages; `watch` is told each page before it is run.
+/// Runs the commands of the pages; `watch` receives each page before it is run.
 ///
 /// # Errors
 /// What is wrong with comments; then nothing is run. Commands that failed, with page, line, command and output.

@@ -26,6 +26,8 @@ type Drawn = Result<(), Box<dyn std::error::Error>>;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Marker {
     None,
+    /// For thousands of points: an element of SVG each, instead of an outline.
+    Dot,
     Circle,
     Square,
     Triangle,
@@ -36,7 +38,7 @@ pub enum Marker {
     Star,
 }
 
-/// Markers that can be told apart.
+/// Markers that can be distinguished.
 pub const MARKERS: [Marker; 9] = [
     Marker::Circle,
     Marker::Square,
@@ -75,6 +77,10 @@ impl Style {
     }
     pub fn marker(colour: usize, marker: Marker) -> Self {
         Self { colour, marker, line: Line::None, hollow: false, size: 4 }
+    }
+    /// Dots of 2 px.
+    pub fn dots(colour: usize) -> Self {
+        Self { size: 1, ..Self::marker(colour, Marker::Dot) }
     }
     fn rgb(self) -> RGBColor {
         COLOURS[self.colour % COLOURS.len()]
@@ -244,6 +250,11 @@ where
             let ends = vec![(*px, py - bar), (*px, py + bar)];
             chart.draw_series([PathElement::new(ends, style.rgb().stroke_width(1))])?;
         }
+        if style.marker == Marker::Dot {
+            let dot = |point| Circle::new(point, style.size, style.rgb().filled());
+            chart.draw_series(points.map(dot))?;
+            continue;
+        }
         let area = chart.plotting_area();
         for point in points {
             for (outline, filled) in outlines(style) {
@@ -265,7 +276,7 @@ fn outlines(style: Style) -> Vec<(Vec<(i32, i32)>, bool)> {
     let closed = |points: &[(i32, i32)]| vec![([points, &points[..1]].concat(), !style.hollow)];
     match style.marker {
         Marker::None => Vec::new(),
-        Marker::Circle => {
+        Marker::Circle | Marker::Dot => {
             let at = |k: i32| f64::from(k) * std::f64::consts::PI / 8.0;
             let round = |v: f64| (f64::from(s) * v).round() as i32;
             closed(&(0..16).map(|k| (round(at(k).cos()), round(at(k).sin()))).collect::<Vec<_>>())
@@ -315,7 +326,8 @@ fn sample(area: &DrawingArea<SVGBackend, Shift>, style: Style, (x, y): (i32, i32
     for (from, to) in pieces {
         area.draw(&PathElement::new(vec![(x + from, y + 7), (x + to, y + 7)], stroke))?;
     }
-    for (outline, filled) in outlines(style) {
+    // Dots are larger here, so that their colour can be seen.
+    for (outline, filled) in outlines(Style { size: style.size.max(3), ..style }) {
         let outline: Vec<(i32, i32)> =
             outline.into_iter().map(|(dx, dy)| (x + 17 + dx, y + 7 + dy)).collect();
         if filled {

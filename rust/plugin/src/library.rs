@@ -49,7 +49,7 @@ pub(crate) fn load(path: &Path) -> Result<Loaded, PluginError> {
         // SAFETY: the symbol is looked for and not called.
         let old = unsafe { library.get::<unsafe extern "C" fn()>(OLD_SYMBOL.to_bytes_with_nul()).is_ok() };
         let reason = if old {
-            "has version 1 of the plug-in interface, which knows no shear; this library has version 2: build it against this \
+            "has version 1 of the plug-in interface, which has no shear; this library has version 2: build it against this \
              library's msdd.h"
         } else {
             "has no function msdd_plugin_v2_table, see msdd.h"

@@ -90,7 +90,7 @@ def _threads(threads: int) -> int:
 
 
 def export_database(database: PathLike, csv: PathLike) -> int:
-    """Writes a database as CSV, compressed if the name ends in `.gz`, and beside it `FILE.columns.csv` (units and meaning of the
+    """Writes a database as CSV, compressed if the name ends in `.gz`, and next to it `FILE.columns.csv` (units and meaning of the
     columns) and `FILE.provenance.json`. The answer is the number of rows.
 
     Raises
@@ -112,7 +112,7 @@ def read_database(path: PathLike) -> pandas.DataFrame:
         without pandas;
     FileError, RveError
     FileNotFoundError
-        when a CSV lacks the files beside it.
+        when a CSV lacks the files next to it.
     """
     try:
         import pandas  # noqa: F401  (asked first: an export can take seconds)

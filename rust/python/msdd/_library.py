@@ -119,7 +119,7 @@ SIGNATURES: dict[str, tuple[Optional[type], list[type]]] = {
 
 
 def _candidates() -> list[Path]:
-    """Where the library may be: named by MSDD_LIBRARY, else beside this file, else where cargo leaves it in a checkout."""
+    """Where the library may be: named by MSDD_LIBRARY, else next to this file, else where cargo leaves it in a checkout."""
     named = os.environ.get("MSDD_LIBRARY")
     if named:
         return [Path(named).resolve()]

@@ -155,7 +155,7 @@ class Rve:
 
     def strain(self, thermal: float = 0.0, xx: float = 0.0, yy: float = 0.0, xy: float = 0.0) -> str:
         """Strains the box relative to its present state and lets the grains come to rest. The answer is "settled" (forces balance),
-        "capped" (the most time steps came first) or "unjammed" (bears no load).
+        "capped" (the most time steps came first) or "unjammed" (carries no load).
 
         Parameters
         ----------

@@ -180,7 +180,7 @@ fn main() {
     assert!(!windows[0].is_empty(), "name state files of large assemblies");
     describe("windows", &windows);
     let (bias, scatter) = mean_and_deviation(&beside_walls);
-    println!("windows: p beside the force on the walls {bias:+.2} % ({scatter:.2} %)");
+    println!("windows: p less the force on the walls {bias:+.2} % ({scatter:.2} %)");
     let rves: Vec<Vec<Simulation>> =
         TARGETS.iter().flat_map(|&target| (1..=seeds).map(move |seed| rve(seed, target))).collect();
     println!("\n| region | quantity | bias % | scatter % | among RVEs % |\n|---|---|---|---|---|");
@@ -194,7 +194,7 @@ fn main() {
         }
         let at_walls = rves.iter().flatten().map(|s| 100.0 * (average(s).pressure / wall_pressure(s) - 1.0));
         let (bias, scatter) = mean_and_deviation(&at_walls.collect::<Vec<f64>>());
-        println!("| {name} | p beside the force on the walls | {bias:+.2} | {scatter:.2} | |");
+        println!("| {name} | p less the force on the walls | {bias:+.2} | {scatter:.2} | |");
         let increments = [1, 2].map(|k| increment_noise(&samples[k - 1], &samples[k]));
         println!(
             "| {name} | increments of porosity over 1 % | | | {:.2} {:.2} |",

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum RegionKind {
-    /// Convex hull of the centres of the discs that bear force and touch no wall (paper, section 2.4). Only
+    /// Convex hull of the centres of the discs that carry force and touch no wall (paper, section 2.4). Only
     /// force-bearing discs count, because a drifting rattler would move the hull.
     Hull,
     /// The box inset by 0.8 r̄ from the walls (authors' later code). It agrees with windows of a large assembly as well
@@ -161,16 +161,16 @@ pub fn region(simulation: &Simulation, kind: RegionKind) -> Polygon {
     }
 }
 
-/// Centres of the discs that bear force and touch no wall.
+/// Centres of the discs that carry force and touch no wall.
 fn inner_centres(simulation: &Simulation) -> Vec<[f64; 2]> {
-    let mut bears = vec![false; simulation.discs.len()];
-    let mut at_wall = bears.clone();
+    let mut carries = vec![false; simulation.discs.len()];
+    let mut at_wall = carries.clone();
     simulation.for_each_contact(|contact| match contact.i {
-        Ok(i) => (bears[i], bears[contact.j]) = (true, true),
+        Ok(i) => (carries[i], carries[contact.j]) = (true, true),
         Err(_) => at_wall[contact.j] = true,
     });
     let discs = simulation.discs.iter().enumerate();
-    discs.filter(|&(k, _)| bears[k] && !at_wall[k]).map(|(_, d)| [d.x, d.y]).collect()
+    discs.filter(|&(k, _)| carries[k] && !at_wall[k]).map(|(_, d)| [d.x, d.y]).collect()
 }
 
 #[cfg(test)]

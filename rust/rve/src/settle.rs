@@ -35,11 +35,11 @@ pub enum Relaxation {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Outcome {
-    /// Forces in balance, and the grains bear load.
+    /// Forces in balance, and the grains carry load.
     Settled,
     /// The largest number of steps was reached before the balance.
     Capped,
-    /// The grains bear no load, whether the forces came into balance or not.
+    /// The grains carry no load, whether the forces came into balance or not.
     Unjammed,
 }
 

@@ -207,7 +207,7 @@ fn probes_change_nothing_on_the_path() {
     assert_eq!(with, states(&without, "without.msdd"));
 }
 
-/// A loose box that opens bears no load in the end: the path ends there, and the rows after it say so.
+/// A loose box that opens carries no load in the end: the path ends there, and the rows after it say so.
 #[test]
 fn a_path_ends_where_the_box_bears_no_load() {
     let text = "radius_min = 3e-3\nradius_max = 7e-3\nseed = 3\n\

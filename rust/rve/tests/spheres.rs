@@ -172,7 +172,7 @@ fn a_path_ends_where_the_box_bears_no_load() {
     }
 }
 
-/// A box that is closed along two axes and opened again keeps its stress along the third, and gives way for that; the rows say by how
+/// A box that is closed along two axes and opened again keeps its stress along the third, and yields for that; the rows say by how
 /// much, and their strains add up.
 #[test]
 fn a_pressed_box_keeps_its_stress_along_one_axis() {
@@ -186,13 +186,13 @@ fn a_pressed_box_keeps_its_stress_along_one_axis() {
     let stress = |r: &SphereRecord| [r.stress_xx, r.stress_yy, r.stress_zz].map(|part| part.unwrap());
     let strain = |r: &SphereRecord| [r.strain_xx, r.strain_yy, r.strain_zz];
     let end = strain(&rows[rows.len() - 1]);
-    let gives_way = (0..3).find(|axis| (end[*axis] + 2.4e-3).abs() > 1e-12).unwrap();
-    let held = rows.iter().map(|row| stress(row)[gives_way] / stress(packed)[gives_way]);
+    let free_axis = (0..3).find(|axis| (end[*axis] + 2.4e-3).abs() > 1e-12).unwrap();
+    let held = rows.iter().map(|row| stress(row)[free_axis] / stress(packed)[free_axis]);
     let off = (held.map(|ratio| (ratio - 1.0).powi(2)).sum::<f64>() / rows.len() as f64).sqrt();
     assert!(off < 0.1, "{off}");
     let largest =
         |of: fn(f64, f64) -> f64, part: &dyn Fn(&SphereRecord) -> f64| rows.iter().map(part).fold(0.0, of);
-    let across = |r: &SphereRecord| stress(r)[(gives_way + 1) % 3] / stress(packed)[(gives_way + 1) % 3];
+    let across = |r: &SphereRecord| stress(r)[(free_axis + 1) % 3] / stress(packed)[(free_axis + 1) % 3];
     assert!(largest(f64::max, &across) > 1.3, "{}", largest(f64::max, &across));
-    assert!(largest(f64::max, &|r| strain(r)[gives_way]) > 2e-3);
+    assert!(largest(f64::max, &|r| strain(r)[free_axis]) > 2e-3);
 }

@@ -159,7 +159,7 @@ fn has_no_border(side: usize) {
     assert!(a.tangential > 0.0);
 }
 
-/// Spheres that fall into a box come to rest there, and the floor and the friction of the sides bear their weight.
+/// Spheres that fall into a box come to rest there, and the floor and the friction of the sides carry their weight.
 #[test]
 fn poured_spheres_rest_on_the_floor() {
     let stiffness = Stiffness::HertzMindlin { young_modulus: 1e7, poisson_ratio: 0.3 };

@@ -131,7 +131,7 @@ pub struct Sample {
     pub inputs: [f64; INPUTS],
     /// Δη, Δf; K_xx, K_yy (over k), σ_xx, σ_yy (dimensionless) of the state after.
     pub outputs: [f64; OUTPUTS],
-    /// Whether Δf is meaningful: both states bear load.
+    /// Whether Δf is meaningful: both states carry load.
     pub fabric_known: bool,
 }
 

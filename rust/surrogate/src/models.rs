@@ -1,4 +1,4 @@
-//! The kinds of models by name. To add a kind, write a file beside this one and a line in [`MODELS`].
+//! The kinds of models by name. To add a kind, write a file next to this one and a line in [`MODELS`].
 
 use crate::document::{field, schema};
 use crate::options::TrainingOptions;
@@ -132,7 +132,7 @@ fn check_answers(model: &dyn Surrogate) -> Result<(), SurrogateError> {
 type Range = ([f64; 2], &'static str);
 
 /// Porosities of test packings, and between what their conductivities and stresses lie: those of the shipped models, 0.19 to 0.59 and
-/// 0.02 to 0.14, by a factor of about 3 on either side. Slippery discs may bear no load at the larger porosities.
+/// 0.02 to 0.14, by a factor of about 3 on either side. Slippery discs may carry no load at the larger porosities.
 const TESTS: [(f64, [Range; 2]); 3] = [
     (0.08, [([0.15, 1.8], "0.15 to 1.8"), ([0.02, 0.4], "0.02 to 0.4")]),
     (0.12, [([0.01, 1.5], "0.01 to 1.5"), ([0.0, 0.3], "0 to 0.3")]),

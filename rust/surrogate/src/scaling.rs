@@ -87,7 +87,7 @@ pub struct OutputScales {
     pub delta_fabric_index_per_strain: f64,
     /// K/k at y = 0 and y = 1.
     pub conductivity: Range,
-    /// σ ℓ/(E r̄) at y = 0 and y = 1. The range starts at 0, since dry grains bear no tension.
+    /// σ ℓ/(E r̄) at y = 0 and y = 1. The range starts at 0, since dry grains carry no tension.
     pub stress: Range,
 }
 
@@ -114,7 +114,7 @@ impl OutputScales {
             // Weight √|ε|, a compromise. With the weight |ε| the increments Δ would be fitted and large strains would
             // dominate, although solvers take small steps, for which the rate matters. With the weight 1 the rates Δ/ε
             // would be fitted and the noise of small strains would dominate. The paper does not say (its network fits
-            // Δ). All three drift alike within the scatter, but one training with the weight 1 gave a useless Δf.
+            // Δ). All three drift equally within the scatter, but one training with the weight 1 gave a useless Δf.
             _ => (delta / (strain * scale), (strain.abs() / largest_strain).sqrt()),
         };
         let state = |value: f64, range: Range| ((value - range.min) / range.width(), 1.0);

@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 #[serde(deny_unknown_fields)]
 pub struct Scores {
     pub delta_porosity: f64,
-    /// Over samples whose states bear load.
+    /// Over samples whose states carry load.
     pub delta_fabric_index: f64,
     pub conductivity_xx: f64,
     pub conductivity_yy: f64,

@@ -68,7 +68,7 @@ impl Track {
         if k == 0 { &self.packed } else { &self.steps[k - 1].to }
     }
 
-    /// Mean p̃ of the states that bear load.
+    /// Mean p̃ of the states that carry load.
     pub fn pressure(&self) -> f64 {
         let all = std::iter::once(&self.packed).chain(self.steps.iter().map(|step| &step.to));
         let (mut sum, mut count) = (0.0, 0.0);
@@ -101,7 +101,7 @@ pub struct PathErrors {
     pub fabric_index: f64,
 }
 
-/// Errors of small strains that were tried on copies of the boxes (probes): the stress that they add, over the strain, beside that
+/// Errors of small strains that were tried on copies of the boxes (probes): the stress that they add, over the strain, compared with that
 /// of the discs.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ProbeErrors {

@@ -19,7 +19,7 @@ pub struct FirstRow {
     pub fabric: [f64; 3],
     /// Where the averages are taken.
     pub porosity: f64,
-    /// Between the radius of the averages and the centres of the first layer beside the side.
+    /// Between the radius of the averages and the centres of the first layer next to the side.
     pub porosity_outside: Option<f64>,
 }
 

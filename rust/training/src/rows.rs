@@ -34,7 +34,7 @@ fn state_row(record: &Record, ramp: RampName, stop: i64) -> Option<StateRow> {
         stress_xx: record.stress_xx_reduced?,
         stress_yy: record.stress_yy_reduced?,
         porosity_sum_of_areas: record.porosity? - record.overlap_fraction?,
-        load_bearing: record.bears_load(),
+        load_bearing: record.carries_load(),
     })
 }
 
@@ -64,7 +64,7 @@ fn thermal_rows(records: &[&Record]) -> Vec<StateRow> {
     rows
 }
 
-/// Largest (σ_xx − σ_yy)/(σ_xx + σ_yy) of packings whose friction at walls counts: grains that bear more slide past each other
+/// Largest (σ_xx − σ_yy)/(σ_xx + σ_yy) of packings whose friction at walls counts: grains that carry more slide past each other
 /// before they slide along a wall, so that the friction is theirs.
 const FAR_FROM_SLIDING: f64 = 0.2;
 

@@ -21,7 +21,7 @@ fn point(record: &Record) -> Option<Point> {
         network: network.zip(record.conductivity_network_xy).map(|((xx, yy), xy)| [xx, yy, xy]),
         fabric_index: record.fabric_index?,
         fabric_shear: record.fabric_xy.map(|xy| 2.0 * xy),
-        load_bearing: record.bears_load(),
+        load_bearing: record.carries_load(),
     })
 }
 

@@ -26,8 +26,8 @@ formulas() { # relations that the written fields must satisfy after 20 steps wit
         "$(awk '$1 >= 0 || $4 >= 0 { n++ } END { print n + 0 }' 1/stress.column)" 0
     check "hot grains take porosity, cold ones give it: sign of the change against that of T - 50" below \
         "$(paste -d ' ' 1/T.column 1/porosity.column | awk '($1 > 60 && $2 >= 0.125) || ($1 < 40 && $2 <= 0.125) { n++ } END { print n + 0 }')" 0
-    check "the end of the run says what to know: range, warning, heat, grains, cost" test \
-        "$(sed -n '/^What to know/,/^$/p' log | grep -c '^  - \(Range: no state was outside\|Warning: small boxes\|Heat: since\|Grains: they stay\|Cost: \)')" = 5
+    check "the summary of the run has range, warning, heat, grains, cost" test \
+        "$(sed -n '/^Accuracy and warnings/,/^$/p' log | grep -c '^  - \(Range: no state was outside\|Warning: sampling scatter\|Heat: since\|Grains: they stay\|Cost: \)')" = 5
     local heat
     heat=$(sed -n 's/.*"stored": \([^,]*\),.*"relative_difference": \([^}]*\)}.*/\1 \2/p' postProcessing/msddFoam/summary.json)
     check "summary.json: heat $heat was stored, and its balance closes" test "$(echo "$heat" | awk '{ print ($1 != 0 && $2 >= 0 && $2 < 1e-7) }')" = 1

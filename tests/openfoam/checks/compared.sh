@@ -1,4 +1,4 @@
-# What a run is told beyond its model: values beyond those compared with DEM, radiation, forces of contacts, the approach
+# What a run reports beyond its model: values beyond those compared with DEM, radiation, forces of contacts, the approach
 # to a steady state, cells thinner than grains, smooth sides of tall beds, and friction that is not read.
 msdd=$(cd "$checkout" && realpath -m "${CARGO_TARGET_DIR:-target}")/release/msdd
 
@@ -14,7 +14,7 @@ sphere_case() { # folder, options: a new case of spheres, meshed
     logged blockMesh
 }
 said() { # what, pattern of a line of the end of the log
-    check "$1" bash -c "sed -n '/^What to know/,\$p' log | grep -qE -- \"\$1\"" - "$2"
+    check "$1" bash -c "sed -n '/^Accuracy and warnings/,\$p' log | grep -qE -- \"\$1\"" - "$2"
 }
 warned() { # what, pattern of a warning of the start
     check "$1" grep -qE -- "^Warning [0-9]*: $2" log

@@ -52,7 +52,7 @@ dry_many() {
     check "dry run: without a mesh it says what makes one" foreseen 'There is no mesh in constant/polyMesh: run blockMesh'
 }
 
-# Beds of spheres in space, in a wedge and beside a solid
+# Beds of spheres in space, in a wedge and next to a solid
 dry_others() {
     local name
     for name in box wedge; do

@@ -160,7 +160,7 @@ pistons() {
 # A beam of thickness 1 and length 8, held at its left end, is bent by two equal pressures p at the other end: from above between 6
 # and 7, from below between 7 and 8. From 1.5 to 4.5 the moment is p, and the lower side must be a parabola of the curvature
 # 12 (1 - nu^2) p/E, since nothing is strained along z.
-# The elements have a closed form of their own: of n square cells across, the stress at the centres bears 1 - 1/n^2 of the moment,
+# The elements have a closed form of their own: of n square cells across, the stress at the centres carries 1 - 1/n^2 of the moment,
 # the stiffness against the hourglass r/n^2 with r = (1 - nu)/8, for cubes (1 - nu)/4. They bend too much by some 1/n^2, near
 # incompressibility as at nu = 0.3. Elements that lock bend too little: bilinear ones that are integrated fully, 4 across, by 0.013
 # of the closed form at nu = 0.4999.

@@ -80,7 +80,7 @@ against_msdd_foam() { # Schumann's bed, air with one temperature, air by pressur
     check "the table of the flow has one row a step" test "$(grep -vc '^#' postProcessing/bed/flow/0/flow.dat)" = 100
 }
 
-# A tube of steel beside a bed of air and rocks, which loses heat to the outside.
+# A tube of steel next to a bed of air and rocks, which loses heat to the outside.
 steel='type mappedWall; sampleMode nearestPatchFace;'
 tube_case() { # folder, solutions in a step, controls, entries of throughCoeffs, condition of T between bed and tube; thickness of the tube in mm
     local mm=${6:-2}

@@ -1,4 +1,4 @@
-# A bed beside fluids in OpenFOAM's own chtMultiRegionFoam: water that flows past a plate, whose heat is balanced up to its outlet, and a gap
+# A bed next to fluids in OpenFOAM's own chtMultiRegionFoam: water that flows past a plate, whose heat is balanced up to its outlet, and a gap
 # of air through which the bed radiates, against the closed form. The flow is given (frozenFlow), so that steps may be long.
 
 . "$here/region_cases"

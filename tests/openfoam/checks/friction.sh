@@ -1,8 +1,8 @@
 # Friction of walls in space, where it is a vector along the wall: a plate that slides under a body, along lines, around a corner and in
-# a circle; a column between rough walls in space beside the same in the plane; Janssen's equation in a square silo; a hollow cylinder beside a wedge; a silo that is
+# a circle; a column between rough walls in space compared with the same in the plane; Janssen's equation in a square silo; a hollow cylinder compared with a wedge; a silo that is
 # turned about its axis; three processes, restart, and what is refused.
 
-# A stiff body, pressed by some 10 kPa onto a plate that slides under it; its own motion along the plate, some 1e-7 m, is small beside
+# A stiff body, pressed by some 10 kPa onto a plate that slides under it; its own motion along the plate, some 1e-7 m, is small compared with
 # the slip of 1 m at which half of the friction is mobilised.
 slid() { # folder, positions "x y" of the plate: one at each second from 2 on; prints the mobilised share of the friction at each, x y
     local at time second=1 table='(0 (0 0 0)) (1 (0 0 0))'

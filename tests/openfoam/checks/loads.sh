@@ -1,5 +1,5 @@
-# What is given at walls and inside of a bed: functions of time under adaptive steps, alike on any number of processes; heat of walls
-# of given flux and of sources that depend on T; a cooling that a first step takes far too far; states that no law knows.
+# What is given at walls and inside of a bed: functions of time under adaptive steps, equal on any number of processes; heat of walls
+# of given flux and of sources that depend on T; a cooling that a first step takes far too far; states that no law covers.
 
 . "$here/region_cases"
 

@@ -1,5 +1,5 @@
 # Equilibrium of the stress: patch test, a step of temperature, wall friction, restart, two processes, a rotated case; and that
-# mechanics none is the default. What the grains bear is asked of the model itself by the program law.c, for the state that the
+# mechanics none is the default. What the grains carry is asked of the model itself by the program law.c, for the state that the
 # solver has written and the strain that the test prescribes.
 
 uniform_temperature() { # the case small at 50 K everywhere, insulated, without expansion

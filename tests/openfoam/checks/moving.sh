@@ -1,5 +1,5 @@
-# Grains of spheres that move, in space, in wedges and in the plane: what cells bear against the law itself, which the program
-# spheres.c asks; growth in a rigid box and under a given pressure; a wedge beside the sector in space; restart, processes, heat, grain
+# Grains of spheres that move, in space, in wedges and in the plane: what cells carry against the law itself, which the program
+# spheres.c asks; growth in a rigid box and under a given pressure; a wedge compared with the sector in space; restart, processes, heat, grain
 # size, gravity, and what is refused.
 
 growth_is() { start_field thermalStrainIncrement '[0 0 0 0 0 0 0]' "$1"; } # growth of the radii, which the first step applies
@@ -59,7 +59,7 @@ growth_of_spheres() {
     check "and the bed grows by as much as the spheres: relative difference $d, at most 1e-6" is_within "$d" -1e-6 1e-6
 }
 
-# Grains that give way at the top of a box of 1 m: as if 50 diameters of bed, 0.1 m, were beyond it. A lid that moves by -3e-4 m strains
+# Grains that yield at the top of a box of 1 m: as if 50 diameters of bed, 0.1 m, were beyond it. A lid that moves by -3e-4 m strains
 # the bed by -3e-4/1.1; on its way back by 2e-4 m, of which 0.1 goes back there, by 2e-4/1.01; and growth in a rigid box lets the
 # bed grow by a tenth of what it is pressed. The solver finds what the grains give to a thousandth.
 giving_is() { # what, time, displacement of the top, largest error
@@ -167,7 +167,7 @@ weights() {
     check "refused: gravity with other dimensions" refused 'allowed: a vector shorter than 1e6'
 }
 
-# A wall that gives way is at rest under what it bears at the start, by the weight of the bed or without, also where a lid meets it. Then
+# A compliant wall is at rest under what it carries at the start, by the weight of the bed or without, also where a lid meets it. Then
 # the whole bed is pressed by 2 kPa more.
 resting_shell() { # folder, what, pressure on the lid [Pa]
     local e

@@ -1,4 +1,4 @@
-# msddFoam with a solid beside the bed: two layers with a contact resistance against the closed form, in both time schemes; heat over
+# msddFoam with a solid next to the bed: two layers with a contact resistance against the closed form, in both time schemes; heat over
 # bed and solid; three processes; grains that move within a shell; regions that cannot be. The bed is the region without a name, the
 # solid is region 'plate'.
 

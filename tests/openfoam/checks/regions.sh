@@ -122,7 +122,7 @@ layers_at_rest() { # 1 kW/m3 in the bed, one step of 1e9 s: T is a parabola in t
     check "two layers with contact resistance and heat in the bed, steady: order $(order $errors) in space over errors $errors K" order_is 2 $errors
 }
 
-# A bed that expands beside a plate, heated from within and cooled outside.
+# A bed that expands next to a plate, heated from within and cooled outside.
 beside_plate() { # folder, solutions in a step, "nx ny" cells of the bed
     regions "$1" 'bed plate' "$2"
     region bed "$3" '0 0 1 0.6' 'right plate left'

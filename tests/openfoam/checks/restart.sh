@@ -88,7 +88,7 @@ edited() { # a time that was changed on purpose, and one of which no number was 
     controls 'endTime 0.55; writeInterval 1;'
     logged msddFoam -accept files
     check "a wall that was changed by hand: accepted by name, the run goes on from it and says so at its end" bash -c \
-        'grep -q "value *uniform 60" 0.55/T && sed -n "/What to know/,\$p" log | grep -q -- "- Accepted: time 0.5 as it is. not as written: T"'
+        'grep -q "value *uniform 60" 0.55/T && sed -n "/Accuracy and warnings/,\$p" log | grep -q -- "- Accepted: time 0.5 as it is. not as written: T"'
     again
     rm -rf 0.55
     logged msddFoam

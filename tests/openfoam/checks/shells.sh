@@ -1,10 +1,10 @@
-# Friction on walls that give way: plates and shells along which a body slides, a vessel that expands as its grains do, the motion of a
+# Friction on compliant walls: plates and shells along which a body slides, a vessel that expands as its grains do, the motion of a
 # shell by temperature along its axis, Janssen's equation in a stiff shell, a silo under its weight and a lid that is heated and cooled,
-# without friction, in a rigid wall in place of the shell, restart, three processes; walls that grains have left;
+# without friction, in a rigid wall instead of the shell, restart, three processes; walls that grains have left;
 # beds that begin at rest between rough walls; what is refused.
 
 # A stiff body between a flat wall with friction and a plate opposite, which moves along it. The wall is pressed with some 10 kPa; the
-# friction is half of its largest after a slip of 1 m, beside which the motion of the body of some 1e-7 m is small.
+# friction is half of its largest after a slip of 1 m, compared with which the motion of the body of some 1e-7 m is small.
 pushed() { # folder, wall, field of its friction: prints the mobilised share of the friction after 0.5, 3 and 2.9 m, along y
     local time
     solid "$1" "residual 5e-3; walls { \".*\" { type pressure; pressure constant 0; } top { $2 friction 0.4; slip 1; }
@@ -100,7 +100,7 @@ list_points() { sed '1,/^($/d; /^)$/,$d' constant/polyMesh/points | tr -d '()'; 
 
 # Janssen's equation in a round silo of an elastic solid, rigid inside, that is pressed at its top by p: with k = nu/(1 - nu), and all of the friction
 # mobilised, the stress falls with exp(-2 mu k r z/(r^2 - 0.01^2)) of the depth z; a quarter of a diameter above the floor and more, below which the
-# solid sticks. A shell that gives way by 1e-6 of the solid is as a rigid wall.
+# solid sticks. A shell that yields by 1e-6 of the solid is as a rigid wall.
 round_silo() { # folder, wall
     solid "$1" "residual 1e-5; maxIterations 200; walls { side { $2 friction 0.4; slip 1e-9; } \"inner|bottom\" { type frictionless; }
         top { type pressure; pressure constant 1000; } }"
@@ -211,7 +211,7 @@ left_wall() { # a rough lid that stays; grains leave it, in part, as the bed sin
 }
 
 # A silo twice as high as wide, without a lid, begins at rest under its weight, of which its rough wall carries a third: the mean vertical stress of each
-# layer after the first step beside Janssen's with the ratio of stresses that is given. Near the floor, where nothing slips, it may be above.
+# layer after the first step compared with Janssen's with the ratio of stresses that is given. Near the floor, where nothing slips, it may be above.
 at_rest() { # wall, keys of the start: prints the largest difference over the stress at the foot
     spheres_bed shells-rest "residual 1e-2; walls { \"bottom|inner\" { type frictionless; } top { type pressure; pressure constant 0; } side { $1 friction 0.15; slip 2e-6; } }"
     rm 0/stress

@@ -1,4 +1,4 @@
-# Beds of spheres in three dimensions: the case steel beside its measurement, what pressure, gas and stress change, growth in cells
+# Beds of spheres in three dimensions: the case steel compared with its measurement, what pressure, gas and stress change, growth in cells
 # that keep their shape, a restart, several processes, and the messages at input that cannot work.
 
 steel() { # folder: a copy of the case steel with a coarse mesh and few steps
@@ -7,7 +7,7 @@ steel() { # folder: a copy of the case steel with a coarse mesh and few steps
     cp -r "$checkout/cases/steel" "$work/$1"
     cd "$work/$1"
     "$checkout/cases/common/clean" > /dev/null
-    # As deep as in the sources, but beside the tests.
+    # As deep as in the sources, but next to the tests.
     sed -i "s#../../common#$checkout/cases/common#" system/*
     sed -i 's/(2 2 100)/(1 1 20)/; s/^stopAt .*/stopAt endTime;/; s/^endTime .*/endTime 100;/; s/^writeInterval .*/writeInterval 50;/' \
         system/blockMeshDict system/controlDict
@@ -40,7 +40,7 @@ measured_bed() {
 }
 # Rms of one row of what compare-dem prints
 apart_by() { awk -v name="$1" 'substr($0, 1, length(name)) == name { split(substr($0, 23), n, " "); print n[2] }' differences; }
-# What is wanted beside DEM: 1 % of the range of T, 5 % of pressures, 3 % of the conductivity
+# What is wanted compared with DEM: 1 % of the range of T, 5 % of pressures, 3 % of the conductivity
 as_dem() { # what, largest error of the conductivity
     local t p k wall
     t=$(apart_by 'T at the probes') p=$(apart_by 'p ') k=$(apart_by K) wall=$(apart_by 'stress on the wall')

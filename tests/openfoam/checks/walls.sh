@@ -1,4 +1,4 @@
-# Walls that meet at sharp edges or are curved: a closed bed between smooth rigid walls, whose grains grow alike everywhere from an
+# Walls that meet at sharp edges or are curved: a closed bed between smooth rigid walls, whose grains grow equally everywhere from an
 # isotropic stress, stays in equilibrium. Nothing moves, and the pressure is that of one cell, whatever the shape of the walls, the
 # size of their faces and the number of processes. What is refused and warned of in 'walls'.
 

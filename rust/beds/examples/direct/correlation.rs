@@ -1,4 +1,4 @@
-//! A published correlation for the conductivity of packed beds, to stand beside simulations.
+//! A published correlation for the conductivity of packed beds, for comparison with simulations.
 
 use msdd_beds::radiation::STEFAN_BOLTZMANN;
 

@@ -1,4 +1,4 @@
-//! Direct solutions of the heat equation and a published correlation, which the laws of heat are held against.
+//! Direct solutions of the heat equation and a published correlation, which the laws of heat are compared with.
 //!
 //! | module | what |
 //! |---|---|

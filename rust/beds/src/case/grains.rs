@@ -91,7 +91,7 @@ pub struct Vessel {
     /// An upright cylinder: its radius. Its walls are `floor`, `side`, `lid` \[m\]. Allowed: `ONE_DIAMETER`; `WIDE`.
     /// Default: this or `base`.
     pub radius: Option<f64>,
-    /// Whether the bed repeats itself beyond the sides of `base`; its walls are `floor`, `lid`. Not next to a `plate`.
+    /// Whether the bed is periodic across the sides of `base`; its walls are `floor`, `lid`. Not next to a `plate`.
     /// Allowed: `true`, `false`; the `base` has `MORE_DIAMETERS`.
     #[serde(default)]
     pub endless: bool,
@@ -161,7 +161,7 @@ const SOFTER: f64 = 4.0;
 const MANY: usize = 1000;
 /// Most steps in which poured grains have to come to rest: those of cases/beds have some 500 000.
 const MAX_STEPS: f64 = 1e8;
-/// Parts of the temperatures of a run at which the conductivity of the grains is held against that of the gas.
+/// Parts of the temperatures of a run at which the conductivity of the grains is compared with that of the gas.
 const LOOKS: u32 = 50;
 /// Solid fraction of a bed whose porosity is not known.
 pub(super) const REFERENCE_FRACTION: f64 = 0.6;
@@ -276,7 +276,7 @@ impl Grains {
         pouring
     }
 
-    /// With what follows from other values in place of what is not given.
+    /// With what follows from other values instead of what is not given.
     pub(super) fn filled(&mut self, container: &Vessel) {
         if self.simulated_young_modulus.is_nan() {
             self.simulated_young_modulus = self.young_modulus / SOFTER;
@@ -379,7 +379,7 @@ impl Grains {
         let [least, most] = self.ratios(range, keys);
         (least < GOOD).then(|| {
             format!(
-                "the grains conduct {least:.1} to {most:.1} times as well as the gas: heat does not go from grain to grain alone, so the conductances \
+                "the grains conduct {least:.1} to {most:.1} times as well as the gas: heat also flows through the gas around the contacts, so the conductances \
                  follow a closure for poor conductors, which is within {:.0} % of direct solutions of the heat equation",
                 100.0 * closure_error(most.min(GOOD)).max(closure_error(least))
             )

@@ -62,7 +62,7 @@ pub struct BedCase {
     /// A section: gas that flows through the bed, for the solver alone. Default: it is at rest.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub flow: Option<Flow>,
-    /// A section: the side of a cylinder that gives way. Default: a rigid side.
+    /// A section: the compliance of the side of a cylinder. Default: a rigid side.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub shell: Option<Shell>,
     /// A section: how a bed without sides is strained across, by DEM alone. Default: it keeps its base.
@@ -158,7 +158,7 @@ impl BedCase {
         self.check().map_err(wrong)
     }
 
-    /// With what follows from other values in place of what is not given.
+    /// With what follows from other values instead of what is not given.
     #[must_use]
     pub fn filled(mut self) -> Self {
         self.grains.filled(&self.container);

@@ -6,7 +6,7 @@ use crate::units::{kelvin, kelvin_over_time_or_none};
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
-/// Least height of a region of averages in diameters, and least number of spheres in it. Layers beside a plate alternate every 0.82
+/// Least height of a region of averages in diameters, and least number of spheres in it. Layers next to a plate alternate every 0.82
 /// diameters; of 30 spheres, with some 70 contacts, a mean stress scatters by about 15 %, as forces scatter about as much as their mean.
 pub(super) const MIN_HEIGHT: f64 = 2.0;
 pub(super) const MIN_SPHERES: f64 = 30.0;
@@ -33,7 +33,7 @@ pub struct Lid {
     /// Default: it stays where it is.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub strain: Option<Schedule>,
-    /// Over time: the pressure with which it goes on pressing, instead of `strain` \[Pa\]. Allowed: `POSITIVE`; by `case new`
+    /// Over time: the constant pressure of the lid, instead of `strain` \[Pa\]. Allowed: `POSITIVE`; by `case new`
     /// `pressure`. Default: it stays where it is.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub pressing: Option<Schedule>,
@@ -147,7 +147,7 @@ pub struct Turn {
     pub down: String,
 }
 
-/// The side of a cylinder, when it gives way.
+/// The compliant side of a cylinder.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Shell {
@@ -235,7 +235,7 @@ pub struct SolverKeys {
     /// Whether the spheres move. Default: `equilibrium`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub mechanics: Option<Mechanics>,
-    /// By how much spheres give way at bottom and top where these stay \[diameters\]. Default: 1; 0 under a lid that presses.
+    /// Slack of the spheres at bottom and top where these stay \[diameters\]. Default: 1; 0 under a lid that presses.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub slack_layer: Option<f64>,
     /// Material of the walls that heat passes: `steel`, `stainless-steel`, `aluminium`, `glass`, or `none`. Default: `steel`.

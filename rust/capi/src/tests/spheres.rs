@@ -33,7 +33,7 @@ const STEEL: msdd_grains = msdd_grains {
     size_spread: 0.0,
 };
 
-/// States of packings under a growing pressure, with one that bears nothing.
+/// States of packings under a growing pressure, with one that carries nothing.
 fn start(law: &Model, cells: usize) -> Vec<Vec<f64>> {
     let solid: Vec<f64> = (0..cells).map(|cell| 0.6 + 1e-3 * cell as f64).collect();
     start_of(law, &STEEL, &solid)

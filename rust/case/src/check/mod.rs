@@ -1,6 +1,6 @@
 //! Checks a case folder before a run, with `msddFoam -dry-run`: it makes all that a run needs, and lists every error and warning.
 //!
-//! A case without a mesh gets the one of `system/blockMeshDict`, in a copy beside the case that is removed again: paths that lead
+//! A case without a mesh gets the one of `system/blockMeshDict`, in a copy next to the case that is removed again: paths that lead
 //! out of the case folder work there as well.
 
 mod copy;

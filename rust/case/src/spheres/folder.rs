@@ -331,9 +331,9 @@ fn rest(scene: &SphereCase) -> String {
     let walls: String = names.map(|name| format!("        {name:8} {{ {} }}\n", entry(name))).collect();
     let mut text = format!(
         "\n// Walls: rigid and frictionless ones stay, piston is a stiff plate under a load (pressure where air would press), shell is a thin\n\
-         // vessel that gives way and expands with its own temperature, along its axis from fixedPoint. friction is tangential over normal\n\
+         // compliant vessel that expands with its own temperature, along its axis from fixedPoint. friction is tangential over normal\n\
          // stress, less than the coefficient of a sphere, and slip [m] that at half of it; without them spheres slide freely.\n\
-         // give: by how many diameters of bed spheres give way at a smooth wall\n\
+         // slackLayer: slack of the spheres at a smooth wall, in diameters of bed\n\
          equilibriumCoeffs\n{{\n    walls\n    {{\n{walls}    }}\n}}\n"
     );
     if rests(scene) {

@@ -37,7 +37,7 @@ fn walls_and_stress_stand_where_the_solver_looks_for_them() {
             true,
         ),
         (&vessel, "constant/g", "value           (-9.81 0 0);", true),
-        // With gravity its file stands in place of that of the stress.
+        // With gravity its file stands instead of that of the stress.
         (&vessel, "0/stress", "uniform", false),
         (&vessel, GRAINS, "restStress", true),
         (&rough, GRAINS, "side     { type rigid; friction 0.154; slip 3.2e-6; }", true),

@@ -30,6 +30,11 @@ pub struct Spheres {
     pub size_spread: f64,
 }
 
+/// Ranges of Poisson's ratio, hardness \[Pa\] and the force at which a sphere breaks \[N\].
+pub const POISSON_RATIOS: [f64; 2] = [-0.99, 0.5];
+pub const HARDNESSES: [f64; 2] = [1.0, 1e15];
+pub const CRUSH_LOADS: [f64; 2] = [1e-12, 1e9];
+
 /// Hardness of smooth spheres, which counts where they are rough \[Pa\].
 const ANY_HARDNESS: f64 = 1e9;
 
@@ -133,9 +138,9 @@ impl Spheres {
     pub fn check(&self) -> Result<(), CaseError> {
         self.grains.check()?;
         let ranges = [
-            (-0.99, 0.5, "-0.99 to 0.5"),
+            (POISSON_RATIOS[0], POISSON_RATIOS[1], "-0.99 to 0.5"),
             (0.0, 0.01 * self.radius(), "0 (smooth) to a hundredth of the radius [m]"),
-            (1.0, 1e15, "1 to 1e15 Pa"),
+            (HARDNESSES[0], HARDNESSES[1], "1 to 1e15 Pa"),
         ];
         for ((key, value, _), (least, most, allowed)) in self.named().into_iter().zip(ranges) {
             allow(key, value, (least..=most).contains(&value), || allowed.to_string())?;
@@ -144,7 +149,8 @@ impl Spheres {
             format!("0 (equal spheres) to {MAX_SPREAD}")
         })?;
         if let Some(load) = self.crush_load {
-            allow("crush_load", load, load > 0.0 && load <= 1e9, || "above 0, to 1e9 N".into())?;
+            let inside = (CRUSH_LOADS[0]..=CRUSH_LOADS[1]).contains(&load);
+            allow("crush_load", load, inside, || "1e-12 to 1e9 N".into())?;
         }
         match self.emissivity {
             Property::Constant(value) => allow("emissivity", value, (0.0..=1.0).contains(&value), || {

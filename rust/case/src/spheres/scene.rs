@@ -21,7 +21,7 @@ use std::f64::consts::PI;
 /// What the top of the bed does.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Lid {
-    /// It goes on pressing with the pressure of the start, and gives way.
+    /// It keeps the pressure of the start, and moves.
     #[default]
     Presses,
     /// It stays where it is.
@@ -50,7 +50,7 @@ pub struct SphereCase {
     pub mechanics: Mechanics,
     pub lid: Lid,
     pub shell: Option<Shell>,
-    /// By how much spheres give way at bottom and top where these stay \[mean diameters\].
+    /// Slack of the spheres at bottom and top where these stay \[mean diameters\].
     pub slack_layer: f64,
     /// Coefficient of friction of spheres and walls; 0: smooth.
     pub wall_friction: f64,
@@ -70,7 +70,7 @@ pub struct SphereCase {
     pub probes: Vec<Vec<f64>>,
 }
 
-/// By how many diameters spheres give way at plates that stay: about the mean of the poured beds, see `msdd bed slack`.
+/// Slack of the spheres at plates that stay: about the mean of the poured beds, see `msdd bed slack`.
 const SLACK: f64 = 1.0;
 /// Porosity of poured beds of equal spheres.
 const POROSITY: f64 = 0.4;
@@ -419,7 +419,7 @@ impl SphereCase {
         self.walls.iter().map(WallOverTime::conducts).collect()
     }
 
-    /// Directions of the shape along which the bed is not alike: where walls have a temperature, upwards under gravity, and all of them
+    /// Directions of the shape along which the bed is not uniform: where walls have a temperature, upwards under gravity, and all of them
     /// between rough walls.
     pub fn varies(&self) -> Vec<bool> {
         let mut varies: Vec<bool> =

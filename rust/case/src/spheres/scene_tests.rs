@@ -87,7 +87,7 @@ fn weight_and_friction_that_are_left_out_are_noted() {
         let fit = found.iter().zip(notes).all(|(note, begin)| note.starts_with(begin));
         assert!(fit && found.len() == notes.len(), "{found:?}");
     };
-    // 7800 0.6 9.81 0.4 Pa are not small beside 20 kPa
+    // 7800 0.6 9.81 0.4 Pa are not small compared with 20 kPa
     begins(&spheres(), &["the weight of the bed, up to 18000 Pa at the bottom", "the sides are smooth"]);
     let rough = SphereCase { gravity: GRAVITY, wall_friction: wall::OF_SPHERE, ..spheres() };
     begins(&rough, &[]);

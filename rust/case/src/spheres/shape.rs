@@ -8,7 +8,7 @@ use std::f64::consts::PI;
 pub const HALF_ANGLE: f64 = 2.5 * PI / 180.0;
 /// Where the mesh of a cylinder begins over its radius: a narrow hole stands for the axis.
 pub const INNER: f64 = 0.008;
-/// Where points of the mesh can be, over the radius of a cylinder: beside the hole, and within its side, which is flat in the wedge.
+/// Where points of the mesh can be, over the radius of a cylinder: next to the hole, and within its side, which is flat in the wedge.
 const PROBED: [f64; 2] = [0.01, 0.999];
 /// Least side of a proposed cell in diameters of a sphere.
 const CELL: f64 = 1.5;
@@ -149,7 +149,7 @@ impl Shape {
         }
     }
 
-    /// A point in the coordinates of the mesh: the axis of a cylinder is x there, and its radius y. A point on the axis stands beside
+    /// A point in the coordinates of the mesh: the axis of a cylinder is x there, and its radius y. A point on the axis stands next to
     /// the hole.
     pub fn point(&self, point: &[f64]) -> String {
         let mesh = match (*self, point) {
@@ -180,7 +180,7 @@ impl Shape {
         }
     }
 
-    /// A symmetric tensor of OpenFOAM that is alike in all horizontal directions.
+    /// A symmetric tensor of OpenFOAM that is equal in all horizontal directions.
     pub fn tensor(&self, horizontal: f64, vertical: f64) -> String {
         let (h, v) = (plain(horizontal), plain(vertical));
         match self {

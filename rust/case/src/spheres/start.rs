@@ -20,7 +20,7 @@ pub const FABRIC: [f64; 2] = [0.325, 0.35];
 const MORE_CONTACTS: f64 = 0.4;
 /// ln(R/h) where no gas matters.
 const ANY_GAS: f64 = 6.0;
-/// Porosities that are tried to find those that the law knows, in thousandths.
+/// Porosities that are tried to find those that the law covers, in thousandths.
 const TRIED: std::ops::Range<u32> = 200..700;
 
 /// A bed that was poured.
@@ -51,14 +51,14 @@ impl PouredBed {
         Ok(Self { model: SphereModel::builtin()?, spheres, pressure })
     }
 
-    /// Least and largest vertical stress that the law knows \[Pa\].
+    /// Least and largest vertical stress that the law covers \[Pa\].
     pub fn pressures(&self) -> [f64; 2] {
         let known = self.model.file.ranges.pressure;
         let vertical = 3.0 / (1.0 + 2.0 * LATERAL) * self.spheres.contact_modulus();
         [known.min, known.max].map(|pressure| pressure * vertical)
     }
 
-    /// Least and largest porosity that the law knows under this stress, to a thousandth; none under a stress that it does not know.
+    /// Least and largest porosity that the law covers under this stress, to a thousandth; none under a stress that it does not know.
     pub fn porosities(&self) -> Option<[f64; 2]> {
         let mut known = TRIED.map(|k| f64::from(k) / 1000.0).filter(|&porosity| self.knows(porosity));
         let least = known.next()?;

@@ -22,7 +22,7 @@ const TOLERANCE: f64 = 2e-3;
 const FRICTIONS: [f64; 2] = [0.2, 0.5];
 /// Of a wall whose surface has one temperature [W/(m K)].
 const ANY_CONDUCTIVITY: f64 = 1e12;
-/// By how much spheres give way at a plate: about the mean of the poured beds, see `msdd bed slack`.
+/// Slack of the spheres at a plate: about the mean of the poured beds, see `msdd bed slack`.
 const GIVE: &str = "slackLayer 1; slackRecovery 0.1;";
 
 #[derive(Args)]
@@ -257,7 +257,7 @@ fn properties(scene: &BedCase, start: &FirstRow, geometry: &Geometry) -> String 
         }
         (None, None) => format!("{rigid} {GIVE}"),
     };
-    // Under a lid that goes on pressing it changes no stress.
+    // Under a lid that keeps its pressure it changes no stress.
     let floor = if scene.lid_moves().1.is_some() { "" } else { GIVE };
     let side = match &scene.shell {
         Some(shell) => {

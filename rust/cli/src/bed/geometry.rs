@@ -18,7 +18,7 @@ const WIDTH: f64 = 3.0;
 /// Where the mesh ends before a plate, in diameters. A plate that is heated holds the first layer of grains at its temperature: the mesh
 /// ends at their centres. On a floor, where these lie flat and the next layer lies in their hollows, the temperatures of the grains
 /// reach that of the floor a little higher. Before the other plate, if it is not heated, the mesh ends where a bed without the wider pores
-/// beside plates would hold all grains, and so their heat.
+/// next to plates would hold all grains, and so their heat.
 pub(super) const HELD: f64 = 0.5;
 const HELD_BY_FLOOR: f64 = 0.66;
 pub(super) const INSULATED: f64 = 0.125;

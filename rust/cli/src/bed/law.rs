@@ -129,7 +129,7 @@ fn paths_of(law: &Law, folder: &Path) -> Result<Vec<Course>, CliError> {
         all.push(Course {
             name,
             rows: rows(law, &track, &times, modulus),
-            pressed: track.steps.iter().any(|step| step.gives_way.is_some()),
+            pressed: track.steps.iter().any(|step| step.free_axis.is_some()),
         });
     }
     Ok(all)
@@ -137,7 +137,7 @@ fn paths_of(law: &Law, folder: &Path) -> Result<Vec<Course>, CliError> {
 
 fn rows(law: &Law, track: &Track, times: &[f64], modulus: f64) -> Vec<Row> {
     let mut strained = track.clone();
-    strained.steps.iter_mut().for_each(|step| step.gives_way = None);
+    strained.steps.iter_mut().for_each(|step| step.free_axis = None);
     let point = |state: &State| Point {
         pressure: modulus * mean(law.stress(state)),
         compression: state.compression,

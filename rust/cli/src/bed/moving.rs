@@ -175,8 +175,8 @@ fn summary(scene: &BedCase, prepared: &Prepared, found: &Run) -> String {
     if found.hurried + found.restless > 0 {
         let _ = writeln!(
             text,
-            "Warning: of {} intervals {} were hurried and {} ended before the bed was near rest: contacts slid that would not slide at rest, and \
-             stresses may be off by tens of percent. Take shorter intervals, or more 'steps' in each.",
+            "Warning: in {} intervals the motion was cut short {} times and ended {} times before the bed was near rest: contacts slid that would not slide \
+             at rest, and stresses may be off by tens of percent. Take shorter intervals, or more 'steps' in each.",
             found.intervals, found.hurried, found.restless
         );
     }

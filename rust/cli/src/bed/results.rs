@@ -8,7 +8,7 @@ use msdd_beds::case::{BedCase, Vary};
 use msdd_beds::experiment::{self, Measured, Misfit};
 use msdd_beds::profile::Slab;
 
-/// Slabs for which averages are told, by their distance from the plate, over the diameter of a grain.
+/// Slabs for which averages are reported, by their distance from the plate, over the diameter of a grain.
 const SLABS: [[f64; 2]; 3] = [[2.5, 10.0], [7.0, 14.5], [11.5, 19.0]];
 
 /// Those of [`SLABS`] that the bed reaches through; else its middle half [m].
@@ -80,7 +80,7 @@ impl Course {
     }
 }
 
-/// Prepares the bed and heats it in both ways; and each bed with one value changed of `vary`. `save` is told the results, first without
+/// Prepares the bed and heats it in both ways; and each bed with one value changed of `vary`. `save` receives the results, first without
 /// and then after each of these. What fails in a bed is told through `failed`.
 pub fn compute(
     case: BedCase,

@@ -1,4 +1,4 @@
-//! `msdd bed slack`: by how much the spheres beside plates give way.
+//! `msdd bed slack`: the slack of spheres next to plates.
 
 use super::law::{folders_of, results_of};
 use crate::error::CliError;

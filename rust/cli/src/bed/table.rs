@@ -79,7 +79,7 @@ fn numbers(misfit: &Misfit) -> String {
     format!("{:>6}  {rms:>6}  {worst:>6}  {bias:>6}", misfit.points)
 }
 
-/// Measurements that are not compared, contacts that yield, what a lid that stopped presses with, a closure in place of the law of pairs.
+/// Measurements that are not compared, contacts that yield, what a lid that stopped presses with, a closure instead of the law of pairs.
 pub fn warnings(results: &Results) -> Vec<String> {
     let missing = results.compared.first().map(|run| left_out(&results.measured, &run.heated.records));
     let missing = missing.filter(|count| *count > 0).map(|count| {

@@ -33,7 +33,7 @@ pub enum Command {
     New(Box<new::Arguments>),
     /// Check a case folder before the run: lists errors and warnings.
     Check(check::Arguments),
-    /// Find the cheapest settings of the solver for a wanted accuracy of T, by short runs on the case itself, and run them.
+    /// Choose mesh, time step and grain motion for a target accuracy of T, by short runs on the case itself, and run with them.
     ///
     /// The results, with 90 % bands, are in the folder FOLDER.chosen.
     Solve(solve::Arguments),

@@ -111,7 +111,7 @@ pub fn run(arguments: &Arguments) -> Result<(), CliError> {
 fn next_steps(folder: &Path, name: &str) -> String {
     let folder = folder.display();
     format!(
-        "Next:\n    {folder}/Allrun    makes the mesh and runs msddFoam; its log ends with what to know about the run\n    \
+        "Next:\n    {folder}/Allrun    makes the mesh and runs msddFoam; its log ends with results, accuracy and warnings\n    \
          results: {folder}/show.html, a page with maps, curves and key numbers; tables in {folder}/postProcessing\n    \
          fields: open {folder}/{name}.foam in ParaView; {folder}/README.md says what is where"
     )

@@ -2,22 +2,17 @@
 
 use crate::error::CliError;
 use clap::Args;
+use msdd_draw::text::significant;
+use msdd_draw::{Line, Style, from_data, plot_named, series};
 use msdd_files::write;
 use msdd_rve::database::{Kind, RampName, Record, read};
 use msdd_rve::region::Polygon;
-use plotters::coord::Shift;
-use plotters::coord::types::RangedCoordf64;
-use plotters::prelude::*;
-use std::ops::Range;
 use std::path::PathBuf;
 
-/// Size of one panel.
-const PANEL: (u32, u32) = (420, 400);
-/// Blue: contraction, orange: expansion, black: hull and packed state. From the palette of Okabe and Ito, which
-/// colour-blind readers can tell apart.
-const DOWN: RGBColor = RGBColor(0, 114, 178);
-const UP: RGBColor = RGBColor(230, 159, 0);
-const REST: RGBColor = RGBColor(0, 0, 0);
+/// Colours, by the sign of the strain: cooled, packed, heated.
+const COLOURS: [(&str, usize); 3] = [("cooled", 2), ("heated", 7), ("packed", 0)];
+/// Points of a panel closer than this share of the axes are drawn once.
+const RESOLUTION: f64 = 2e-3;
 
 #[derive(Args)]
 pub struct Arguments {
@@ -29,7 +24,7 @@ pub struct Arguments {
     out: PathBuf,
 }
 
-/// A state to draw: one of the thermal ramps that start from the packed state, if it bears load.
+/// A state to draw: one of the thermal ramps that start from the packed state, if it carries load.
 struct Point {
     /// η₀, f₀, ε.
     inputs: [f64; 3],
@@ -40,8 +35,7 @@ struct Point {
 
 /// A panel: axis labels, and the points with the strain that colours them.
 struct Panel {
-    x: &'static str,
-    y: &'static str,
+    names: [&'static str; 2],
     points: Vec<([f64; 2], f64)>,
     hull: bool,
 }
@@ -63,7 +57,7 @@ pub fn run(arguments: &Arguments) -> Result<(), CliError> {
 fn points(records: &[Record]) -> Vec<Point> {
     let ramps = [RampName::Packed, RampName::Up, RampName::Down];
     let thermal =
-        records.iter().filter(|r| r.kind == Kind::Thermal && ramps.contains(&r.ramp) && r.bears_load());
+        records.iter().filter(|r| r.kind == Kind::Thermal && ramps.contains(&r.ramp) && r.carries_load());
     let point = |r: &Record| {
         Some(Point {
             inputs: [r.initial_porosity?, r.initial_fabric_index?, r.strain],
@@ -74,13 +68,15 @@ fn points(records: &[Record]) -> Vec<Point> {
     thermal.filter_map(point).collect()
 }
 
-/// The three projections of the input space.
+/// The three projections of the input space. Packings have all their strains at one place of the first.
 fn inputs(points: &[Point]) -> Vec<Panel> {
     let names = ["initial porosity", "initial fabric index", "thermal strain"];
     let panel = |[a, b]: [usize; 2]| Panel {
-        x: names[a],
-        y: names[b],
-        points: points.iter().map(|p| ([p.inputs[a], p.inputs[b]], p.inputs[2])).collect(),
+        names: [names[a], names[b]],
+        points: points
+            .iter()
+            .map(|p| ([p.inputs[a], p.inputs[b]], if b == 2 { p.inputs[2] } else { 0.0 }))
+            .collect(),
         hull: true,
     };
     [[0, 1], [0, 2], [1, 2]].map(panel).into()
@@ -88,95 +84,65 @@ fn inputs(points: &[Point]) -> Vec<Panel> {
 
 /// K and σ against the porosity of the same state.
 fn outputs(points: &[Point]) -> Vec<Panel> {
-    let names = ["K_xx / k", "K_yy / k", "sigma_xx l / (E r)", "sigma_yy l / (E r)"];
+    let names = ["K_xx / k", "K_yy / k", "σ_xx ℓ / (E r)", "σ_yy ℓ / (E r)"];
     let panel = |k: usize| Panel {
-        x: "porosity",
-        y: names[k],
+        names: ["porosity", names[k]],
         points: points.iter().map(|p| ([p.porosity, p.outputs[k]], p.inputs[2])).collect(),
         hull: false,
     };
     (0..names.len()).map(panel).collect()
 }
 
-/// The panels in a row.
+/// The panels in two columns.
 fn svg(panels: &[Panel]) -> Result<String, CliError> {
-    let mut text = String::new();
-    draw(panels, &mut text).map_err(|error| CliError::Message(format!("cannot draw the plot: {error}")))?;
-    Ok(text)
-}
-
-fn draw(panels: &[Panel], text: &mut String) -> Result<(), Box<dyn std::error::Error>> {
-    let root = SVGBackend::with_string(text, (PANEL.0 * panels.len() as u32, PANEL.1)).into_drawing_area();
-    root.fill(&WHITE)?;
-    for (panel, area) in panels.iter().zip(root.split_evenly((1, panels.len()))) {
-        panel.draw(&area)?;
-    }
-    root.present()?;
-    Ok(())
+    let drawn = panels.iter().map(Panel::draw).collect::<Result<Vec<_>, _>>()?;
+    Ok(msdd_draw::sheet(&drawn, 2))
 }
 
 impl Panel {
-    fn draw(&self, area: &DrawingArea<SVGBackend<'_>, Shift>) -> Result<(), Box<dyn std::error::Error>> {
-        let [x, y] = [0, 1].map(|k| range(self.points.iter().map(|(point, _)| point[k])));
-        let mut chart = ChartBuilder::on(area)
-            .margin(12)
-            .x_label_area_size(40)
-            .y_label_area_size(56)
-            .build_cartesian_2d(x, y)?;
-        chart
-            .configure_mesh()
-            .x_desc(self.x)
-            .y_desc(self.y)
-            .x_labels(6)
-            .y_labels(8)
-            .light_line_style(WHITE)
-            .bold_line_style(BLACK.mix(0.12))
-            .label_style(("sans-serif", 12))
-            .axis_desc_style(("sans-serif", 14))
-            .draw()?;
-        self.draw_points(&mut chart)?;
+    /// The title states the range that the points cover.
+    fn draw(&self) -> Result<String, CliError> {
+        let ranges = [0, 1].map(|k| range(self.points.iter().map(|(point, _)| point[k])));
+        let covered = [0, 1].map(|k| {
+            let [low, high] = ranges[k].map(|end| significant(end, 2));
+            format!("{} {low} to {high}", self.names[k].replace("initial ", ""))
+        });
+        let points = distinct(&self.points, ranges);
+        let of = |name: &str| points.iter().filter(move |(_, sign)| *sign == name).map(move |(point, _)| (point[0], point[1]));
+        let coloured = COLOURS.map(|(name, colour)| (name, series(of(name).collect(), Style::dots(colour))));
+        let mut list: Vec<_> = coloured.into_iter().filter(|(_, one)| !one.points.is_empty()).collect();
         if self.hull {
             let mut border = Polygon::hull(self.points.iter().map(|(point, _)| *point).collect()).corners;
             border.extend(border.first().copied());
-            let corners = border.into_iter().map(|[x, y]| (x, y));
-            chart.draw_series(LineSeries::new(corners, REST.stroke_width(2)))?;
+            let border = border.into_iter().map(|[x, y]| (x, y)).collect();
+            list.push(("convex hull", series(border, Style::line(0, Line::Solid))));
         }
-        Ok(())
-    }
-
-    fn draw_points<'a>(
-        &self,
-        chart: &mut ChartContext<'a, SVGBackend<'a>, Cartesian2d<RangedCoordf64, RangedCoordf64>>,
-    ) -> Result<(), String> {
-        let colour = |strain: f64| match strain {
-            s if s > 0.0 => UP,
-            s if s < 0.0 => DOWN,
-            _ => REST,
-        };
-        let mut points: Vec<_> = distinct(&self.points);
-        // Packed states come last, so that they are drawn on top.
-        points.sort_by_key(|(_, strain)| *strain == 0.0);
-        let circle =
-            |([x, y], strain): ([f64; 2], f64)| Circle::new((x, y), 1, colour(strain).mix(0.6).filled());
-        chart.draw_series(points.into_iter().map(circle)).map_err(|error| error.to_string())?;
-        Ok(())
+        let list = list.into_iter().map(|(name, one)| (name.to_string(), one)).collect();
+        let [x, y] = self.names.map(|name| format!("{name} [-]"));
+        Ok(plot_named(&covered.join(", "), &from_data(&x, false), &from_data(&y, false), list)?)
     }
 }
 
-/// The points without duplicates: of circles at the same place only the last is visible.
-fn distinct(points: &[([f64; 2], f64)]) -> Vec<([f64; 2], f64)> {
+/// The points with the name of their colour, once at each place.
+fn distinct(points: &[([f64; 2], f64)], ranges: [[f64; 2]; 2]) -> Vec<([f64; 2], &'static str)> {
     let mut seen = std::collections::BTreeSet::new();
-    let new = |(point, strain): &&([f64; 2], f64)| {
-        seen.insert((point.map(f64::to_bits), (*strain == 0.0, *strain > 0.0)))
+    let named = points.iter().map(|(point, strain)| {
+        let sign = if *strain < 0.0 { 0 } else { 2 - usize::from(*strain > 0.0) };
+        (*point, COLOURS[sign].0)
+    });
+    let place = |point: &[f64; 2]| {
+        let cell = |k: usize| {
+            let [low, high] = ranges[k];
+            ((point[k] - low) / (RESOLUTION * (high - low).max(f64::MIN_POSITIVE))).round() as i64
+        };
+        [cell(0), cell(1)]
     };
-    points.iter().filter(new).copied().collect()
+    named.filter(|(point, name)| seen.insert((place(point), *name))).collect()
 }
 
-/// Range of the values with a margin of 5 % on both sides.
-fn range(values: impl Iterator<Item = f64>) -> Range<f64> {
-    let (low, high) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(v), h.max(v)));
-    let spare = 0.05 * (high - low).max(1e-3);
-    low - spare..high + spare
+/// The least and the largest value.
+fn range(values: impl Iterator<Item = f64>) -> [f64; 2] {
+    values.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], v| [low.min(v), high.max(v)])
 }
 
 #[cfg(test)]
@@ -210,9 +176,11 @@ mod tests {
         let points = points(&records);
         assert_eq!(points.len(), 5);
         let drawn = svg(&inputs(&points)).unwrap();
-        // A place with two colours is drawn twice (a packed state, black, over an expanded one, orange), with one colour once.
-        assert_eq!(drawn.matches("<circle").count(), 5 + 4 + 4);
-        assert_eq!(drawn.matches(&format!("stroke=\"#{:06X}\" stroke-width=\"2\"", 0)).count(), 3, "{drawn}");
+        // Two packings share a place of the second and third panel; a legend has no element of its kind.
+        assert_eq!(drawn.matches("<circle").count(), 4 + 4 + 4);
+        let keys = ["packed", "heated", "convex hull"].map(|key| drawn.matches(&format!("\n{key}\n")).count());
+        assert_eq!(keys, [3, 2, 3], "{drawn}");
+        assert!(drawn.contains("porosity 0.1 to 0.15, fabric index 0 to 0.1"), "{drawn}");
         for label in ["initial porosity", "initial fabric index", "thermal strain"] {
             assert!(drawn.contains(label), "{label}");
         }

@@ -1,4 +1,4 @@
-//! The plan of the beds of spheres: a TOML file with a name and a use for each. The beds themselves stand in folders beside it.
+//! The plan of the beds of spheres: a TOML file with a name and a use for each. The beds themselves stand in folders next to it.
 
 use super::Use;
 use crate::ReferenceError;
@@ -21,7 +21,7 @@ pub struct BedPlan {
 #[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PlannedBed {
-    /// Name of the bed: beside the plan stands a folder of this name, with `bed.toml` and the files `dem-<seed>.csv` of
+    /// Name of the bed: next to the plan stands a folder of this name, with `bed.toml` and the files `dem-<seed>.csv` of
     /// its packings. Allowed: `BED_NAMES`.
     pub name: String,
     /// What it is for, as above.

@@ -19,7 +19,7 @@ const USES: [(&str, &str); 3] =
 /// Files that are missing or lack a column.
 pub fn section(root: &Path) -> Result<Section, DocsError> {
     let mut section = Section::default();
-    errors(&mut section, root, ("beds-errors", "the solver beside beds of spheres, rms", FOLDER))?;
+    errors(&mut section, root, ("beds-errors", "the solver compared with beds of spheres, rms", FOLDER))?;
 
     let bands = Table::read(root, FOLDER, "bands.csv")?;
     let mut rows = Vec::new();
@@ -93,7 +93,7 @@ fn errors(
     Ok(())
 }
 
-/// By how much spheres give way at plates: beds whose load changes, and the mean of all.
+/// Slack of the spheres at plates: beds whose load changes, and the mean of all.
 fn plates(section: &mut Section, beds: &Json) -> Result<(), DocsError> {
     let (mut rows, mut sums) = (Vec::new(), [[0.0; 2]; 2]);
     for bed in beds.list("")? {
@@ -115,7 +115,7 @@ fn plates(section: &mut Section, beds: &Json) -> Result<(), DocsError> {
     row.extend(sums.map(|[sum, count]| decimals(sum / count, 2)));
     rows.push(row);
     let columns = ["bed", "packings", "given where pressed [d]", "given back where let up [d]"];
-    let meaning = "thickness of bed, in diameters, by which spheres give way at each of two smooth plates, and how much one packing differs";
+    let meaning = "slack of the bed at each of two smooth plates, in diameters, and how much one packing differs";
     section.add_table("plates-give", meaning, "msdd bed slack", &columns, rows);
     Ok(())
 }

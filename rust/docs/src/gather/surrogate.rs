@@ -37,7 +37,7 @@ pub fn section(root: &Path) -> Result<Section, DocsError> {
     spheres(&mut section, &Json::read(root, &format!("{INPUTS}/score_spheres.json"))?)?;
     let cycling = along_paths(&Json::read(root, &format!("{INPUTS}/score_cycling.json"))?)?;
     let meaning = "rms errors of the law of spheres along paths of ten cycles, of all packings, one fifth of which its training never \
-                   saw; no two of them are alike";
+                   saw; no two of them are equal";
     section.add_table("spheres-law-cycling", meaning, "msdd score", &ALONG_COLUMNS, cycling);
     let poured = along_paths(&Json::read(root, &format!("{INPUTS}/score_poured.json"))?)?;
     let meaning = "rms errors of the law of spheres along the paths of beds that were poured, of all packings, \
@@ -184,7 +184,7 @@ fn along_paths(scores: &Json) -> Result<Vec<Vec<String>>, DocsError> {
     Ok(rows)
 }
 
-/// Rows of a table of errors along the paths of packings with which others were made and strained alike; scatter in brackets.
+/// Rows of a table of errors along the paths of packings with which others were made and strained equally; scatter in brackets.
 fn along_alike(scores: &Json) -> Result<Vec<Vec<String>>, DocsError> {
     let mut rows = Vec::new();
     for kind in scores.list("/0")? {
@@ -204,7 +204,7 @@ fn along_alike(scores: &Json) -> Result<Vec<Vec<String>>, DocsError> {
     Ok(rows)
 }
 
-/// The law of spheres along paths, compared with the scatter between packings that were made and strained alike; and of known states.
+/// The law of spheres along paths, compared with the scatter between packings that were made and strained equally; and of known states.
 fn spheres(section: &mut Section, scores: &Json) -> Result<(), DocsError> {
     let mut known = Vec::new();
     for kind in scores.list("/0")? {
@@ -221,10 +221,10 @@ fn spheres(section: &mut Section, scores: &Json) -> Result<(), DocsError> {
         known.push(row);
     }
     let meaning = "rms errors of the law of spheres along paths of strain of packings that its training never saw; in brackets the \
-                   scatter between packings that were made and strained alike";
+                   scatter between packings that were made and strained equally";
     section.add_table("spheres-law", meaning, "msdd score", &ALONG_COLUMNS, along_paths(scores)?);
     let columns = ["path", "pressure [%]", "deviator [%]", "K by contacts [%]", "K by gas [%]"];
-    let meaning = "rms errors of the law of spheres along the paths of all packings with which others were made and strained alike; in \
+    let meaning = "rms errors of the law of spheres along the paths of all packings with which others were made and strained equally; in \
                    brackets the scatter between those";
     section.add_table("spheres-law-alike", meaning, "msdd score", &columns, along_alike(scores)?);
     let columns = [

@@ -8,7 +8,7 @@ use std::path::Path;
 /// Database of thermal ramps of the shipped model.
 pub const DATABASE: &str = "cases/database/periodic.csv.gz";
 
-/// Convex hulls of the states that bear load. Models are trained with these and with the same states turned by 90° (f with the
+/// Convex hulls of the states that carry load. Models are trained with these and with the same states turned by 90° (f with the
 /// opposite sign), so the hulls contain both.
 #[derive(Clone, Debug, Default)]
 pub struct KnownStates {
@@ -30,7 +30,7 @@ impl KnownStates {
             problem: error.to_string(),
         };
         let records = read(file).map_err(failed)?.records;
-        let thermal = records.iter().filter(|r| r.kind == Kind::Thermal && r.bears_load());
+        let thermal = records.iter().filter(|r| r.kind == Kind::Thermal && r.carries_load());
         let states: Vec<[f64; 4]> = thermal
             .filter_map(|r| {
                 let pressure = 0.5 * (r.stress_xx_reduced? + r.stress_yy_reduced?);

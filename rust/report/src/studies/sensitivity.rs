@@ -35,8 +35,8 @@ fn changes() -> Vec<(&'static str, String)> {
         ("as shipped", String::new()),
         ("wall friction 0.25", walls("friction 0.25;")),
         ("wall friction 0.55", walls("friction 0.55;")),
-        ("no stronger grains beside walls", walls("layerStrength 1;")),
-        ("layers beside walls half as wide", walls("layer 0.0325;")),
+        ("no stronger grains next to walls", walls("layerStrength 1;")),
+        ("layers next to walls half as wide", walls("layer 0.0325;")),
         ("walls that discs do not press into", keys("wallCompliance 0;")),
         ("walls that they press into twice as far", keys("wallCompliance 2.8;")),
     ]

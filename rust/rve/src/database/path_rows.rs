@@ -12,7 +12,7 @@ pub(super) fn place(ramp: RampName, planned: Planned) -> Place {
 }
 
 /// The states at the places of one path, or why they were not reached. A path ends where a failure happens or where the
-/// box bears no load any more.
+/// box carries no load any more.
 pub(super) fn follow_all(
     packed: &Packed,
     relaxation: Relaxation,

@@ -249,8 +249,8 @@ impl Record {
         Strains { thermal: self.strain, xx: self.strain_xx, yy: self.strain_yy, xy: self.strain_xy }
     }
 
-    /// Whether the state was reached and bears load.
-    pub fn bears_load(&self) -> bool {
+    /// Whether the state was reached and carries load.
+    pub fn carries_load(&self) -> bool {
         self.outcome == Outcome::Settled.as_str() || self.outcome == Outcome::Capped.as_str()
     }
 }

@@ -95,9 +95,9 @@ pub fn rest(simulation: &mut Simulation, since: u64) -> Result<Rest, Failure> {
         simulation.drag = DRAG * per_time(simulation, UNJAMMED_PRESSURE);
         simulation.run(LOOK_EVERY)?;
         let unbalanced = unbalanced_force(simulation);
-        let bears_load = pressure(simulation) >= UNJAMMED_PRESSURE;
-        unloaded = if bears_load { 0 } else { unloaded + LOOK_EVERY };
-        let outcome = match bears_load {
+        let carries_load = pressure(simulation) >= UNJAMMED_PRESSURE;
+        unloaded = if carries_load { 0 } else { unloaded + LOOK_EVERY };
+        let outcome = match carries_load {
             true if unbalanced < BALANCED => Outcome::Settled,
             true if simulation.steps >= end => Outcome::Capped,
             false if unloaded >= MAX_UNJAMMED || simulation.steps >= end => Outcome::Unjammed,

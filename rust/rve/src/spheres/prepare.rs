@@ -22,7 +22,7 @@ const ATTEMPTS: u32 = 40;
 /// before.
 const SLOPE: f64 = 0.45;
 const OPENS_TO: f64 = 0.3;
-/// Part of an increment at which a box that loses its load at once is left with the pressure that it still bears.
+/// Part of an increment at which a box that loses its load at once is left with the pressure that it still carries.
 const MIN_SCALE: f64 = 0.05;
 
 /// Spheres of a packing, pressures over E*, and openings of boxes that are shaken: with less, spheres still touch.
@@ -135,7 +135,7 @@ pub fn prepare(preparation: &Preparation) -> Result<Prepared, PrepareError> {
     Ok(Prepared { simulation, rest })
 }
 
-/// Closes or opens the box in the ratio of `rates`, whose sum is 3, until it bears the pressure; or until it would lose its
+/// Closes or opens the box in the ratio of `rates`, whose sum is 3, until it carries the pressure; or until it would lose its
 /// load suddenly if it were opened further, with the least pressure found.
 fn bring_to(
     simulation: &mut Simulation,
@@ -164,7 +164,7 @@ fn bring_to(
             }
             continue;
         }
-        // A box that bears nothing may have to close by more than the pressure says.
+        // A box that carries nothing may have to close by more than the pressure says.
         scale = if pressure(&tried) < UNJAMMED_PRESSURE { 2.0 * scale } else { 1.0 };
         after.steps += rest.steps;
         (*simulation, rest) = (tried, after);

@@ -21,7 +21,7 @@ impl Strain {
         Self { thermal, ..Self::default() }
     }
 
-    /// The box closes or opens alike along all axes.
+    /// The box closes or opens equally along all axes.
     pub fn isotropic(size: f64) -> Self {
         Self { stretch: [size, size, size, 0.0, 0.0, 0.0], ..Self::default() }
     }

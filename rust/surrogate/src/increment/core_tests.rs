@@ -286,7 +286,7 @@ fn lost_on_triangle(core: &Core, random: &mut ChaCha8Rng, good: impl Fn(f64) -> 
     if good(lost) { lost } else { lost_in_parts(core, &mut start.clone(), 8000) }
 }
 
-/// What the integration errs by at most where contacts are lost and found again.
+/// Largest error of the integration where contacts are lost and found again.
 const BOUND: f64 = 1e-6;
 
 fn lost_in_parts(core: &Core, random: &mut ChaCha8Rng, parts: i32) -> f64 {

@@ -17,7 +17,7 @@ use std::ops::ControlFlow;
 /// Elastic compression at which contacts have mostly formed; too small for the data to determine.
 const ONSET: f64 = 1e-3;
 /// Added to the pressure of a state, over which its errors are taken: a fifth of that of the loosest packings, so that states
-/// that hardly bear load do not dominate.
+/// that hardly carry load do not dominate.
 const PRESSURE_SCALE: f64 = 0.003;
 /// Weight of the differences of probes over their strain.
 pub(super) const PROBE_WEIGHT: f64 = 0.6;
@@ -152,7 +152,7 @@ pub fn fit(problem: &PathFit, epochs: u32, mut watch: impl FnMut(u32, f64)) -> (
 /// Least p̃ of states to which the readouts are fitted: below, the packings are losing their contacts one by one.
 const MIN_PRESSURE: f64 = 1e-3;
 
-/// A state of the database beside the law's.
+/// A state of the database next to the law's.
 struct Seen<'a> {
     point: &'a Point,
     /// Number of the state of its packing in the list.

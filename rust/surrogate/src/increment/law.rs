@@ -71,13 +71,13 @@ const TINY: f64 = 1e-30;
 /// What determines the stress of a cell.
 #[derive(Clone, Copy)]
 pub struct Elastic<N> {
-    /// φ_J: the solid fraction (overlaps counted twice) at which the packing would bear no load [-].
+    /// φ_J: the solid fraction (overlaps counted twice) at which the packing would carry no load [-].
     pub jamming: N,
     /// v = φ_s/φ_J − 1: how far the packing is compressed beyond φ_J [-]; negative where the grains do not touch.
     pub compression: N,
     /// Elastic shear strain of each element: γ₁ = e_yy − e_xx and γ₂ = −2 e_xy.
     pub shear: [[N; 2]; ELEMENTS],
-    /// Factor of all elements' strengths, which does not change: 1 but for packings that bear more.
+    /// Factor of all elements' strengths, which does not change: 1 but for packings that carry more.
     pub strength: N,
 }
 

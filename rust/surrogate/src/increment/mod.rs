@@ -4,7 +4,7 @@
 //! box that is smaller by 1/(1 + ε), with all lengths larger by 1 + ε. So a thermal strain is an isotropic compression, and
 //! stresses over E times the present mean radius are equal.
 //!
-//! **Elastic energy.** A packing with the solid fraction φ_s (sum of the grains' areas over the area) bears no load at the
+//! **Elastic energy.** A packing with the solid fraction φ_s (sum of the grains' areas over the area) carries no load at the
 //! fraction φ_J. Its elastic compression is v = φ_s/φ_J − 1. Its deviator is borne by parallel elements i with elastic
 //! shear strains γ_i = (e_yy − e_xx, −2 e_xy), which are vectors that turn by 2θ when the cell turns by θ. With z, the
 //! porosity 1 − φ_J less 0.17, the energy over the area that the packing has without load is

@@ -19,7 +19,7 @@ const TRIALS: usize = 100;
 const ROUNDING: f64 = 1e-14;
 /// Largest number of rounds in which φ_s and v, which depend on each other by the overlaps, are found.
 const ROUNDS: usize = 20;
-/// Largest factor of the strengths: grains that bear twice as much are not known.
+/// Largest factor of the strengths: grains that carry twice as much are not known.
 const MAX_STRENGTH: f64 = 2.0;
 /// Far below all pressures, and such that no quotient overflows.
 const MIN_PRESSURE: f64 = 1e-100;
@@ -60,7 +60,7 @@ pub fn start(law: &Law, readout: &Readout, porosity: f64, pressure: f64, deviato
 }
 
 /// The state with the solid fraction φ_s, pressure p̃ and deviator (q̃₁, q̃₂). The elements share the deviator as after a
-/// proportional load from zero: each bears its part of the shear strain until it slides. A packing that bears a deviator larger
+/// proportional load from zero: each carries its part of the shear strain until it slides. A packing that carries a deviator larger
 /// than all strengths has larger strengths, by a common factor.
 pub fn start_of_solid(law: &Law, solid: f64, pressure: f64, deviator: [f64; 2]) -> ElasticState {
     let (state, _) = loaded(law, solid, pressure, deviator);
@@ -98,7 +98,7 @@ fn least_compression(beyond: impl Fn(f64) -> f64, error: f64) -> f64 {
 /// Number of compressions at which a pressure is looked for that the largest compression does not have.
 const PLACES: u32 = 60;
 
-/// State and stress at a compression whose elements bear a deviator of this size.
+/// State and stress at a compression whose elements carry a deviator of this size.
 fn at(law: &Law, solid: f64, compression: f64, size: f64, direction: [f64; 2]) -> (Elastic<Cell>, [Cell; 3]) {
     let (jamming, v) = (cell(solid / (1.0 + compression)), cell(compression));
     let unsheared =
@@ -114,7 +114,7 @@ fn at(law: &Law, solid: f64, compression: f64, size: f64, direction: [f64; 2]) -
     (state, law.stress(&state, &moduli))
 }
 
-/// The shear strain that all elements have which do not slide, when together they bear a deviator of this size.
+/// The shear strain that all elements have which do not slide, when together they carry a deviator of this size.
 fn shared(law: &Law, limits: [f64; ELEMENTS], stiffness: f64, size: f64) -> f64 {
     let mut order: [usize; ELEMENTS] = std::array::from_fn(|k| k);
     order.sort_by(|a, b| limits[*a].total_cmp(&limits[*b]));

@@ -96,7 +96,7 @@ impl<N: Number> Usual<N> {
         kept.not_below(0.0).not_above(MAX_RESTING)
     }
 
-    /// The others, which bear load, and by which the fabric turns.
+    /// The others, which carry load, and by which the fabric turns.
     #[inline(always)]
     pub fn bearing(&self, coordination: N) -> N {
         coordination - self.resting(coordination)

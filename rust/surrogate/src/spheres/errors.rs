@@ -1,4 +1,4 @@
-//! Errors along paths: of the law, and of packings beside each other.
+//! Errors along paths: of the law, and between packings.
 
 use serde::Serialize;
 

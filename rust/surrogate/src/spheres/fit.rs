@@ -20,12 +20,12 @@ const DEFAULT_SPHERES: f64 = 1000.0;
 /// each cycle is far off after ten.
 const TURNS: usize = 7;
 const OF_CYCLES: f64 = 1.7;
-/// Factor of the residuals of paths of shear alone, and of compression alone: by these the law errs by nearly one and a half times what
-/// packings that were made alike differ.
+/// Factor of the residuals of paths of shear alone, and of compression alone: by these the law has an error of nearly one and a half times what
+/// packings that were made equally differ.
 const OF_ONE_KIND: f64 = 2.5;
 
 /// A stress counts over the largest of these: the pressure, that of the packing, a share of the largest on the path so far, and
-/// the pressure that a share of the largest strain so far would build up. So an error of strain that is small beside the strain counts
+/// the pressure that a share of the largest strain so far would build up. So an error of strain that is small compared with the strain counts
 /// little where a packing is about to lose its load and a small strain changes its pressure by decades.
 const SHARE_OF_LARGEST: f64 = 0.1;
 const SHARE_OF_STRAIN: f64 = 0.2;
@@ -40,7 +40,7 @@ pub fn scales(track: &Track) -> Vec<f64> {
     let mut strains = vec![[0.0; 6]];
     let each = track.steps.iter().map(|step| {
         // A packing whose load is held along an axis does not lose it.
-        let strain = match step.gives_way {
+        let strain = match step.free_axis {
             None => sum(&strains[step.from], &step.strain()),
             Some(_) => strains[step.from],
         };
@@ -55,7 +55,7 @@ pub fn scales(track: &Track) -> Vec<f64> {
     each.collect()
 }
 
-/// Weight of the errors of the fabric beside those of the stress. They hold the fourth element to the fabric that was counted; else it
+/// Weight of the errors of the fabric relative to those of the stress. They hold the fourth element to the fabric that was counted; else it
 /// would take any value that fits the stress.
 const OF_FABRIC: f64 = 0.3;
 /// Usual stress ratio over the deviator of the fabric: it turns errors of the fabric into errors of a stress ratio.
@@ -107,8 +107,8 @@ impl Paths for PathFit<'_> {
                     (0..6)
                         .map(|k| (both(k) * weight * (found[k] - data[k]) / scale).clamp(-MOST[1], MOST[1])),
                 );
-                let bears = mean(step.to.stress) > MIN_PRESSURE;
-                let weight = if bears { OF_FABRIC * REFERENCE_RATIO * weight } else { 0.0 };
+                let carries = mean(step.to.stress) > MIN_PRESSURE;
+                let weight = if carries { OF_FABRIC * REFERENCE_RATIO * weight } else { 0.0 };
                 let (fabric, known) = (state.ratios[FABRIC], deviator(step.to.fabric));
                 let per_anisotropy = law.fabric[0].max(MIN_RATIO);
                 residuals.extend((0..6).map(|k| {

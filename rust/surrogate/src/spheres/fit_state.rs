@@ -74,7 +74,7 @@ fn contacts_that_fade(tracks: &[(&Track, Vec<State>)], fading: [f64; 2]) -> (Con
 }
 
 /// Fits the conductivities to the states of the data with the hidden state that the law has there: its compression is that which
-/// bears the pressure of the data.
+/// carries the pressure of the data.
 pub fn readout(law: &Law, tracks: &[Track]) -> Readout {
     let mut all: Vec<(State, &Point, f64)> = Vec::new();
     for track in tracks {

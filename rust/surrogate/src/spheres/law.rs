@@ -31,7 +31,7 @@ pub struct Law {
     /// direction n of sliding; negative where grains climb over each other. Beside it the fabric changes the compression without
     /// sliding, see [`super`].
     pub dilatancy: [f64; 5],
-    /// Loss of compression by a unit of that sliding beside it, of packings whose friction is mobilised and that hardly bear load:
+    /// Loss of compression by a unit of that sliding next to it, of packings whose friction is mobilised and that hardly carry load:
     /// (1 − g)^c₃ c₀ e^(−c₁ x) u^(−c₂).
     pub collapse: [f64; 4],
     /// Growth of the mobilised friction by sliding: dg = −m g ds/(v + 5e-5).
@@ -123,7 +123,7 @@ impl Law {
         (exponent.exp() * v * v.root()).times(b0)
     }
 
-    /// The factor that the stiffnesses of all elements of friction have beside [`Element::stiffness`], by ln u.
+    /// The factor that the stiffnesses of all elements of friction have next to [`Element::stiffness`], by ln u.
     #[inline(always)]
     pub(super) fn stiffening<N: Number>(&self, x: N, unmobilised: N, loaded: N) -> N {
         let [of_density, power, of_unmobilised] = self.shear;
@@ -179,9 +179,9 @@ impl Law {
     }
 
     /// Deviator of the stress over A, of the stress ratio η: η + Λ dev(η η). The strengths of the elements are lengths of tensors, the
-    /// same in all directions; by the second term a packing bears a larger deviator where one axis is compressed than where two are, and
-    /// where one is compressed as another is extended the third bears less than the mean. So it is in soils (Lade, 1977, Int. J. Solids
-    /// Struct. 13:1019) and in boxes of spheres (Thornton, 2000, Géotechnique 50:43). Named after the angle of Lode, which tells these
+    /// same in all directions; by the second term a packing carries a larger deviator where one axis is compressed than where two are, and
+    /// where one is compressed as another is extended the third carries less than the mean. So it is in soils (Lade, 1977, Int. J. Solids
+    /// Struct. 13:1019) and in boxes of spheres (Thornton, 2000, Géotechnique 50:43). Named after the angle of Lode, which distinguishes these
     /// directions apart.
     #[inline(always)]
     pub fn deviator<N: Number>(&self, ratio: &Tensor<N>) -> Tensor<N> {
@@ -309,11 +309,11 @@ impl Law {
         let settled = (state.compression - tried) * ((level * level).plus(1.0).inverse().times(s0) + always);
         let loss = (loss + state.compression.where_above(tried, settled, zero)).not_above_number(tried);
         let compression = tried - loss;
-        // Contacts keep their directions where grains give way.
+        // Contacts keep their directions where grains yield.
         let kept = (compression.not_below(MIN_COMPRESSION) * before.inverse()).ln();
         ratios[FABRIC] = scaled(&ratios[FABRIC], kept.times(self.elements[FABRIC].power).exp());
         let jamming = state.jamming + state.jamming * loss * compression.plus(1.0).inverse();
-        // Where packings are about to lose their load, v is small beside any sliding.
+        // Where packings are about to lose their load, v is small compared with any sliding.
         let soft = after.plus(SOFT).inverse();
         let left = unmobilised * (sliding * soft).times(-self.mobilising).not_below(-MAX_EXPONENT).exp();
         let mobilised = left.times(-1.0).plus(1.0);
@@ -393,7 +393,7 @@ const MAX_RATE: f64 = 30.0;
 const SUBSTEP: f64 = 0.1;
 const MAX_SUBSTEPS: u32 = 16;
 
-/// Number of equal substeps in which a strain is applied: the more, the larger what it strains the contacts is beside the elastic
+/// Number of equal substeps in which a strain is applied: the more, the larger what it strains the contacts is compared with the elastic
 /// compression v, or the gap that is left where grains do not touch (v below 0), because stress and strengths follow from v.
 #[inline(always)]
 fn substeps<V: Arithmetic>(compression: V, thermal: V, cell: Tensor<V>) -> V {

@@ -219,7 +219,7 @@ impl Default for Block {
     }
 }
 
-/// What is wanted of the answers for a block, beside state and stress.
+/// What is wanted of the answers for a block, apart from state and stress.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Wanted {
     /// The derivatives of the stress by this many of the strains xx, yy, zz, xy, xz, yz: 0, 4 (in the plane) or 6. A number between is

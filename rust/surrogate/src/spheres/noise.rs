@@ -40,7 +40,7 @@ pub fn noise(pairs: &[Pair]) -> Option<Errors> {
 }
 
 impl Pair<'_> {
-    /// How many states of the track are compared: as far as both bear load, and where the other one loses it.
+    /// How many states of the track are compared: as far as both carry load, and where the other one loses it.
     pub fn states(&self) -> usize {
         self.one.steps.len().min(self.other.steps.len() + usize::from(self.other.loses_load))
     }
@@ -120,7 +120,7 @@ mod tests {
             weight: 1.0,
             packed: point,
             aside: 0.0,
-            steps: vec![Step { from: 0, thermal: 0.0, stretch, gives_way: None, to: point }],
+            steps: vec![Step { from: 0, thermal: 0.0, stretch, free_axis: None, to: point }],
             loses_load: false,
         }
     }

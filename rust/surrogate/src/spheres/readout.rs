@@ -18,10 +18,10 @@ pub const GAS_RANGE: [f64; 2] = [2.5, 9.5];
 
 /// Coefficients. s = √v, x = φ_J − 0.6, y = φ − 0.6, n = z − 5.5 with the contacts per sphere z, and
 ///
-/// m = z_b + z_r v/(v + 0.001) − 5.5, with the contacts z_b that bear load and those z_r of grains that only rest on others, which come
-/// to bear as the packing is pressed, see [`super::contacts::Usual`];
+/// m = z_b + z_r v/(v + 0.001) − 5.5, with the contacts z_b that carry load and those z_r of grains that only rest on others, which come
+/// to carry as the packing is pressed, see [`super::contacts::Usual`];
 ///
-/// q = r²/(r² + 0.003), with the length r of the stress ratio that friction bears: forces of a packing that was sheared are less even.
+/// q = r²/(r² + 0.003), with the length r of the stress ratio that friction carries: forces of a packing that was sheared are less even.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Readout {
@@ -91,9 +91,9 @@ pub fn gas_row<N: Number>(state: &State<N>) -> [N; 9] {
     [N::constant(1.0), y, y * y, v, s * y, n, n * s, hardly, state.unmobilised()]
 }
 
-/// Compression at which grains that only rest on others conduct half as well as those that bear.
+/// Compression at which grains that only rest on others conduct half as well as those that carry.
 const PRESSED: f64 = 1e-3;
-/// Square of the stress ratio that friction bears at which half of what shear does to C is done.
+/// Square of the stress ratio that friction carries at which half of what shear does to C is done.
 const SHEARED: f64 = 0.003;
 /// Contacts per sphere from which n and m are counted.
 const REFERENCE_CONTACTS: f64 = 5.5;

@@ -1,4 +1,4 @@
-//! Errors of the model of spheres along paths, beside the scatter between packings.
+//! Errors of the model of spheres along paths, compared with the scatter between packings.
 
 use super::errors::{Errors, MIN_PRESSURE, Sums};
 use super::fit::scales;
@@ -28,7 +28,7 @@ pub struct PathErrors {
     pub direction: f64,
     /// The same of the conductivity by gas at ln(R/h) = 8.5, relative; NaN where this is not known.
     pub gas_of_state: f64,
-    /// Scatter between packings that were made and strained alike; absent when there are none.
+    /// Scatter between packings that were made and strained equally; absent when there are none.
     pub noise: Option<Errors>,
     /// Errors along the paths of those packings, over the same states.
     pub beside_noise: Option<Errors>,

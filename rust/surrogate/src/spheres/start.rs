@@ -9,7 +9,7 @@ use super::tensor::{Tensor, contraction, deviator, mean, square};
 const START_RATIO: f64 = 0.7;
 const ITERATIONS: usize = 60;
 const NEAR_PRESSURE: f64 = 1e-14;
-/// Largest deviator over A for which a stress ratio is looked for: no packing bears as much.
+/// Largest deviator over A for which a stress ratio is looked for: no packing carries as much.
 const MAX_DEVIATOR: f64 = 3.0;
 /// Shares of it that are looked at; iterations for each, the error at which they end, and the least determinant of their
 /// equations.
@@ -18,19 +18,19 @@ const NEWTONS: u32 = 20;
 const NEAR: f64 = 1e-14;
 const MIN_DETERMINANT: f64 = 0.05;
 
-/// What tells the part of the deviator that the fabric bears.
+/// What determines the part of the deviator that the fabric carries.
 enum Borne {
     /// The deviator of the fabric, which is known.
     Fabric(Tensor),
-    /// It is not known: the fabric bears its usual part.
+    /// It is not known: the fabric carries its usual part.
     Usual,
 }
 
 impl Law {
-    /// The state with a solid fraction, a stress over E*, and what else is known. The fabric bears its part; the other elements
-    /// share the rest of the deviator as after a proportional load: each bears its part until it slides. A packing that bears more
-    /// than the strengths of friction has larger ones, by a common factor of at most 2; what friction cannot bear then, the fabric
-    /// bears, whose strength is then at most four times as large. What is beyond that is lost.
+    /// The state with a solid fraction, a stress over E*, and what else is known. The fabric carries its part; the other elements
+    /// share the rest of the deviator as after a proportional load: each carries its part until it slides. A packing that carries more
+    /// than the strengths of friction has larger ones, by a common factor of at most 2; what friction cannot carry then, the fabric
+    /// carries, whose strength is then at most four times as large. What is beyond that is lost.
     pub fn start(&self, solid: f64, stress: Tensor, known: &PackingData) -> State {
         let mobilised = known.mobilised.unwrap_or(POURED).clamp(0.0, 1.0);
         let mut state = self.start_of_stress(solid, stress, known.fabric.map(deviator), mobilised);
@@ -143,8 +143,8 @@ impl Law {
             std::array::from_fn(|k| Self::factor(k, state.strength) * strengths[k] / stiffness[k]);
         let common = shared(limits, stiffness, size);
         for k in 0..FABRIC {
-            let bears = common.min(limits[k]) * stiffness[k] / size;
-            state.ratios[k] = rest.map(|part| part * bears);
+            let carried = common.min(limits[k]) * stiffness[k] / size;
+            state.ratios[k] = rest.map(|part| part * carried);
         }
         state
     }
@@ -174,7 +174,7 @@ fn coefficients(lode: f64, third: f64) -> Option<[f64; 2]> {
     None
 }
 
-/// The shear strain over v that all elements have which do not slide, when together they bear a deviator of this size.
+/// The shear strain over v that all elements have which do not slide, when together they carry a deviator of this size.
 fn shared(limits: [f64; FABRIC], stiffness: [f64; FABRIC], size: f64) -> f64 {
     let mut order: [usize; FABRIC] = std::array::from_fn(|k| k);
     order.sort_by(|a, b| limits[*a].total_cmp(&limits[*b]));

@@ -5,7 +5,7 @@ use super::number::Number;
 use super::tensor::{Tensor, sum};
 use crate::kernel::vector::Arithmetic;
 
-/// Number of elements, each of which bears a part of the deviator. The last is that of the fabric.
+/// Number of elements, each of which carries a part of the deviator. The last is that of the fabric.
 pub const ELEMENTS: usize = 4;
 /// The element whose stress ratio is that of the directions of the contacts.
 pub const FABRIC: usize = ELEMENTS - 1;
@@ -23,21 +23,21 @@ pub const POURED: f64 = 0.85;
 /// What determines the stress of a cell.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct State<N: Number = f64> {
-    /// φ_J: the solid fraction at which the packing would bear no load \[-\].
+    /// φ_J: the solid fraction at which the packing would carry no load \[-\].
     pub jamming: N,
     /// v = φ/φ_J − 1; negative where the grains do not touch.
     pub compression: N,
     /// η_k: parts of the deviator of the stress over A.
     pub ratios: [Tensor<N>; ELEMENTS],
-    /// Factor of the strengths, see `super::law::Law::factor`, which does not change: 1 but for packings that bear more.
+    /// Factor of the strengths, see `super::law::Law::factor`, which does not change: 1 but for packings that carry more.
     pub strength: N::Values,
     /// Part of the friction that is mobilised, 0 to 1: as where all contacts were made under friction (1), or without any (0).
     pub mobilised: N,
-    /// z: contacts per sphere, all spheres counted. By those that bear load the fabric turns.
+    /// z: contacts per sphere, all spheres counted. By those that carry load the fabric turns.
     pub coordination: N,
 }
 
-/// What may be known of a packing beside its solid fraction and stress. What is not known is as it usually is.
+/// What may be known of a packing apart from its solid fraction and stress. What is not known is as it usually is.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct PackingData {
     /// Contacts per sphere, all spheres counted.

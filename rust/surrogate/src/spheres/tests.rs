@@ -22,7 +22,7 @@ pub(super) fn tensor(generator: &mut ChaCha8Rng, size: f64) -> Tensor {
     std::array::from_fn(|_| size * random(generator))
 }
 
-/// A packing that bears load, with a deviator.
+/// A packing that carries load, with a deviator.
 pub(super) fn packing(law: &Law, generator: &mut ChaCha8Rng) -> State {
     let solid = 0.605 + 0.025 * random(generator);
     let pressure = libm::pow(10.0, -5.0 + 2.5 * random(generator));
@@ -301,7 +301,7 @@ fn tracks(law: &Law, packings: i64) -> Vec<Track> {
                 stretch[..3].iter_mut().for_each(|normal| *normal -= 2e-4);
                 for _ in 0..6 {
                     let from = track.steps.len();
-                    track.steps.push(Step { from, thermal: 1e-4, stretch, gives_way: None, to: packed });
+                    track.steps.push(Step { from, thermal: 1e-4, stretch, free_axis: None, to: packed });
                 }
             }
             for (step, state) in follow(law, &track.clone()).iter().skip(1).enumerate() {
@@ -389,7 +389,7 @@ fn packings_that_bear_a_large_deviator_start_with_it() {
     assert!(worst(&part, &deviator(stress)) < 1e-10, "{start:?}");
 }
 
-/// Where one axis is compressed packings bear more than where two are, and of three axes the one that is not strained bears less than
+/// Where one axis is compressed packings carry more than where two are, and of three axes the one that is not strained carries less than
 /// the mean.
 #[test]
 fn the_deviator_depends_on_the_direction_of_the_strain() {
@@ -437,7 +437,7 @@ fn any_deviator_has_a_start() {
 }
 
 /// What a packing has more contacts than usual it keeps if its friction is mobilised. If it was made without friction it keeps them
-/// where it is hardly strained, and forgets them where it is strained far. It conducts better for them, but bears no more.
+/// where it is hardly strained, and forgets them where it is strained far. It conducts better for them, but carries no more.
 #[test]
 fn packings_keep_the_contacts_they_have_more_unless_they_were_made_without_friction_and_are_strained() {
     let model = model();
@@ -566,7 +566,7 @@ fn the_fabric_turns_by_the_number_of_contacts_that_bear_load() {
     assert!((bed / box_like - 1.0).abs() < 0.01, "{bed} {box_like}");
 }
 
-/// Beds whose friction is mobilised give way where they are sheared; those that were packed without friction bear. Each has a solid
+/// Beds whose friction is mobilised yield where they are sheared; those that were packed without friction carry. Each has a solid
 /// fraction of the boxes of the training that were closed like it under this pressure: 0.575 to 0.590, and 0.633 to 0.638.
 #[test]
 fn packings_with_mobilised_friction_are_softer() {
@@ -596,7 +596,7 @@ fn packings_with_mobilised_friction_are_softer() {
     });
 }
 
-/// The fabric of a packing bears a part of its deviator, which stays where isotropic compression takes the rest.
+/// The fabric of a packing carries a part of its deviator, which stays where isotropic compression takes the rest.
 #[test]
 fn a_known_fabric_bears_its_part_of_the_deviator() {
     let law = model().file.law;

@@ -23,12 +23,12 @@ pub struct Point {
     /// Mean of n n over the contacts, with the normals n.
     pub fabric: Tensor,
     /// Mobilised part of the friction: the friction while packing over that afterwards, 1 for packings that were shaken; of beds that
-    /// were poured that of boxes whose contacts bear as large a share of it.
+    /// were poured that of boxes whose contacts carry as large a share of it.
     pub mobilised: f64,
 }
 
 impl Point {
-    /// What is known of the packing beside solid fraction and stress.
+    /// What is known of the packing apart from solid fraction and stress.
     pub fn known(&self) -> PackingData {
         PackingData {
             coordination: Some(self.coordination),
@@ -67,9 +67,9 @@ pub struct Step {
     pub thermal: f64,
     /// F − 1 of the box, which is 0 below the diagonal: xx, yy, zz, then xy, xz, yz as displacement over distance; extension positive.
     pub stretch: Tensor,
-    /// Of a box that gives way along an axis so that its stress stays: that axis. The law is followed with the stress of the data there,
+    /// Of a box that yields along an axis so that its stress stays: that axis. The law is followed with the stress of the data there,
     /// not with the strain.
-    pub gives_way: Option<usize>,
+    pub free_axis: Option<usize>,
     pub to: Point,
 }
 
@@ -81,24 +81,24 @@ impl Step {
     }
 }
 
-/// A packing and what was done with it, as far as it bears load.
+/// A packing and what was done with it, as far as it carries load.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Track {
     pub packing: i64,
     pub name: String,
-    /// How the packing was made, for telling packings that were made alike; and whether it was without a direction.
+    /// How the packing was made, to distinguish packings that were made equally; and whether it was without a direction.
     pub recipe: String,
     pub is_isotropic: bool,
     /// Number of spheres.
     pub spheres: usize,
     /// Factor of its errors of stress and fabric in the training, and weight of the squares of those of the number of contacts. Of
-    /// those of conductivities by contacts its root is the weight, so that boxes are met beside the beds that have large weights.
+    /// those of conductivities by contacts its root is the weight, so that boxes are met next to the beds that have large weights.
     pub weight: f64,
     pub packed: Point,
     /// The solid fraction of the packing less the mean of its recipe \[-\], see [`set_aside`].
     pub aside: f64,
     pub steps: Vec<Step>,
-    /// Whether the path goes on after these steps, and the packing bears no load after the next one.
+    /// Whether the path goes on after these steps, and the packing carries no load after the next one.
     pub loses_load: bool,
 }
 
@@ -113,7 +113,7 @@ impl Track {
         law.start(self.packed.solid - self.aside, self.packed.stress, &self.packed.known())
     }
 
-    /// A state on the path with the solid fraction of this packing in place of that of its recipe.
+    /// A state on the path with the solid fraction of this packing instead of that of its recipe.
     pub fn of_packing(&self, state: &State) -> State {
         State { jamming: state.jamming + self.aside, ..*state }
     }
@@ -131,7 +131,7 @@ impl Track {
 const SUBSTEP: f64 = 2.5e-4;
 const MAX_SUBSTEPS: f64 = 40.0;
 
-/// Takes the mean solid fraction of a recipe for that of its packings. Boxes of a thousand spheres that were made alike jam at solid
+/// Takes the mean solid fraction of a recipe for that of its packings. Boxes of a thousand spheres that were made equally jam at solid
 /// fractions which scatter, and which tell little of what a box does when it is strained; those of recipes differ by more, and tell it.
 pub fn set_aside(tracks: &mut [Track]) {
     let mut recipes: BTreeMap<String, BTreeMap<i64, f64>> = BTreeMap::new();
@@ -154,7 +154,7 @@ pub fn follow_from(law: &Law, track: &Track, packed: State) -> Vec<State> {
     let mut states = vec![packed];
     for step in &track.steps {
         let from = &states[step.from];
-        let next = match step.gives_way {
+        let next = match step.free_axis {
             Some(axis) => given_way(law, from, step, axis),
             None => advanced(law, from, step.thermal, step.stretch),
         };

@@ -39,7 +39,7 @@ pub fn train(tracks: &[Track], options: &TrainingOptions) -> Result<SphereModel,
         return Err(SurrogateError::Data(text.to_string()));
     }
     if !seen.iter().any(|track| track.packed.gas.iter().all(|gas| gas.is_finite())) {
-        let text = "beds that were poured alone, which tell nothing of the gas, allowed: them beside boxes";
+        let text = "poured beds alone, which have no data for the gas, allowed: poured beds together with boxes";
         return Err(SurrogateError::Data(text.to_string()));
     }
     let contacts = contacts(&beginning(), &seen);

@@ -152,11 +152,11 @@ pub fn track(
     };
     // Where the lid keeps its pressure, and where the bed is spread and may lose all but its weight.
     let spreads = scene.shell.is_some() || scene.sides.is_some();
-    let gives_way = (scene.lid_moves().1.is_some() || spreads).then_some(2);
+    let free_axis = (scene.lid_moves().1.is_some() || spreads).then_some(2);
     let steps = (1..temperatures.len()).map(|k| {
         let [thermal, x, y, z] =
             std::array::from_fn(|column| (1.0 + strains[column][k]) / (1.0 + strains[column][k - 1]) - 1.0);
-        Step { from: k - 1, thermal, stretch: diagonal([x, y, z]), gives_way, to: point(k) }
+        Step { from: k - 1, thermal, stretch: diagonal([x, y, z]), free_axis, to: point(k) }
     });
     // Spheres in the region of the averages.
     let [low, high] = scene.record.heights;

@@ -4,7 +4,7 @@ use msdd_rve::database::spheres::{PathName, SphereCompression, SphereRecord};
 use msdd_surrogate::spheres::tracks::{Point, Step, Track};
 use std::collections::BTreeMap;
 
-/// A state that bears load; `None` for others.
+/// A state that carries load; `None` for others.
 fn point(record: &SphereRecord) -> Option<Point> {
     if !matches!(record.outcome.as_str(), "settled" | "capped") {
         return None;
@@ -49,17 +49,17 @@ fn point(record: &SphereRecord) -> Option<Point> {
 fn step(record: &SphereRecord) -> Option<Step> {
     let increment = record.increment()?;
     let stretch = increment.step.stretch;
-    // The box closes or opens alike along the two other axes.
+    // The box closes or opens equally along the two other axes.
     let [x, y, z, ..] = stretch;
-    let gives_way = match record.path {
+    let free_axis = match record.path {
         PathName::Pressed => [(y, z), (x, z), (x, y)].iter().position(|(a, b)| a == b),
         _ => None,
     };
     let from = usize::try_from(increment.from_stop).ok()?;
-    Some(Step { from, thermal: increment.step.thermal, stretch, gives_way, to: point(record)? })
+    Some(Step { from, thermal: increment.step.thermal, stretch, free_axis, to: point(record)? })
 }
 
-/// All paths, each as far as the box bears load. Those of `equivalence`, whose strains all start from the packed state, are left out.
+/// All paths, each as far as the box carries load. Those of `equivalence`, whose strains all start from the packed state, are left out.
 pub fn tracks(records: &[SphereRecord]) -> Vec<Track> {
     let mut all: BTreeMap<(i64, PathName), Vec<&SphereRecord>> = BTreeMap::new();
     let mut packed: BTreeMap<i64, Point> = BTreeMap::new();

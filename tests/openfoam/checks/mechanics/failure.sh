@@ -64,7 +64,7 @@ hopeless() { # shape: a single iteration is allowed for a residual that needs se
 
 # A long column, cold at one end, where the grains lose their contacts; at the other end the friction of the walls holds them.
 # Triangles whose grains have lost contact resist nothing (see limits.md): single ones open, and then a few steps in a thousand
-# stall above the residual. Their centres are nearer to the cold wall, which asks for shorter steps.
+# stall above the residual. Their centres are nearer to the cold wall, which requires shorter steps.
 unjammed() { # shape, time step, residual [Pa], steps that may end above it
     local loose packed bad above
     both_ways "unjam-$1"

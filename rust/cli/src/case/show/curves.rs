@@ -17,7 +17,7 @@ pub type Figure = (&'static str, String);
 /// At most so many curves are drawn in a figure, and so many places along an axis.
 const MAX_CURVES: usize = 8;
 const PLACES: usize = 60;
-/// Most rows of cells along an axis that are drawn one by one, else steps; rows are told apart by this share of the length.
+/// Most rows of cells along an axis that are drawn one by one, else steps; rows are distinguished by this share of the length.
 const MAX_ROWS: usize = 200;
 const STEPS: f64 = 15.0;
 const ROUNDED: f64 = 1e5;

@@ -21,7 +21,7 @@ const COLUMNS: usize = 3;
 #[command(
     after_help = "The page is one HTML file that needs no network: open it in a browser, print it or send it. It has
 - key numbers: temperatures, stress, conductivity, outlet, pressure drop, heat, duration, and each wall;
-- what to know about the run: the last lines of its log, and the warnings of its start;
+- accuracy and warnings: the last lines of its log, and the warnings of its start;
 - maps at three times: T, gasTemperature, pressure, conductivity, D and porosity, where they were written;
 - T at the probes over time, with its 90 % band after 'msdd case solve'; T along the bed;
 - stress and heat flux on the walls; outlet and pressure drop of a gas; the balance of heat.

@@ -1,4 +1,4 @@
-//! The page: title that says the result, key numbers, what to know, and the figures.
+//! The page: title that says the result, key numbers, accuracy and warnings, and the figures.
 
 use super::curves::{self, Figure};
 use super::maps::{self, QUANTITIES, spread};
@@ -69,7 +69,7 @@ fn whole(run: &Run, figures: &[Figure], last_alone: bool) -> Result<String, CliE
     page += &results(run)?;
     page += "</div>\n</div>\n";
     page += &wall_table(run)?;
-    page += &what_to_know(run);
+    page += &accuracy_and_warnings(run);
     for (name, ids) in SECTIONS {
         let own: Vec<&Figure> =
             ids.iter().flat_map(|id| figures.iter().filter(move |figure| figure.0 == *id)).collect();
@@ -226,7 +226,7 @@ fn wall_table(run: &Run) -> Result<String, CliError> {
     Ok(if rows.is_empty() { String::new() } else { table(&heads.each_ref().map(String::as_str), &rows) })
 }
 
-fn what_to_know(run: &Run) -> String {
+fn accuracy_and_warnings(run: &Run) -> String {
     let Some(summary) = &run.summary else { return String::new() };
     let texts = |key: &str| summary[key].as_array().cloned().unwrap_or_default().into_iter();
     let text = |value: Value| value.as_str().map(escape);
@@ -234,7 +234,7 @@ fn what_to_know(run: &Run) -> String {
         texts("warnings").filter_map(text).map(|text| format!("<li class=\"no\">Warning: {text}</li>\n"));
     let sentences = texts("what_to_know").filter_map(text).map(|text| format!("<li>{text}</li>\n"));
     let all: String = warnings.chain(sentences).collect();
-    if all.is_empty() { all } else { format!("<h2>What to know</h2>\n<ul>\n{all}</ul>\n") }
+    if all.is_empty() { all } else { format!("<h2>Accuracy and warnings</h2>\n<ul>\n{all}</ul>\n") }
 }
 
 /// What a reader has to know about the figures.

@@ -87,7 +87,7 @@ fn row_laws(record: &Record, rows: &Rows, plans: &Plans, tolerance: f64) -> Vec<
         if record.fabric_xy.is_none() {
             found.push(("a state has all averages", "fabric_xy is absent".to_string()));
         }
-        if from.bears_load() {
+        if from.carries_load() {
             found.extend(state_laws([from, record], increment.step, tolerance));
         } else {
             found.push(("a path ends where no load is borne", format!("stop {}", increment.from_stop)));

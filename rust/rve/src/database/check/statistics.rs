@@ -31,7 +31,7 @@ impl Mean {
         let largest = LARGEST_DEVIATION * (1.0 + 6.0 / (self.packings.max(2) - 1) as f64);
         (self.packings >= MIN_PACKINGS && off.abs() > largest).then(|| Violation {
             row: format!("isotropic packings of {} {}", self.count, self.grains),
-            law: "axes are alike",
+            law: "axes are equal",
             found: format!("mean {} {:.3e}, {off:.1} standard errors off 0", self.quantity, self.mean),
         })
     }
@@ -39,11 +39,11 @@ impl Mean {
 
 type Quantity = (&'static str, fn(&Record) -> Option<f64>);
 
-/// Packed states of square boxes that bear load, by size.
+/// Packed states of square boxes that carry load, by size.
 fn packed(records: &[Record]) -> BTreeMap<u64, Vec<&Record>> {
     let mut sizes: BTreeMap<u64, Vec<&Record>> = BTreeMap::new();
     for record in records {
-        if record.ramp == RampName::Packed && record.kind != Kind::WallShear && record.bears_load() {
+        if record.ramp == RampName::Packed && record.kind != Kind::WallShear && record.carries_load() {
             sizes.entry(record.discs).or_default().push(record);
         }
     }

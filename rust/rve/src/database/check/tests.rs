@@ -163,5 +163,5 @@ fn a_preferred_direction_is_found() {
         record.fabric_index = record.fabric_index.map(|f| f + 0.5);
     }
     let violations = check(&skewed).violations;
-    assert!(violations.iter().any(|v| v.law == "axes are alike" && v.found.contains("fabric_index")));
+    assert!(violations.iter().any(|v| v.law == "axes are equal" && v.found.contains("fabric_index")));
 }

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum SphereCompression {
-    /// Along all axes alike.
+    /// Along all axes equally.
     #[default]
     Isotropic,
     /// Along z only.

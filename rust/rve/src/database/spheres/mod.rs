@@ -7,12 +7,12 @@
 //! | [`plan`] | the packings and paths to make |
 //! | [`record`] | one row: one state of one packing |
 //! | `rows` | the rows of one packing |
-//! | `giving_way` | boxes that keep their stress along one axis |
+//! | `free_axis` | boxes that keep their stress along one axis |
 //! | [`check`] | exact laws on every row |
 //! | `recipe` | what is common to all plans |
 
 pub mod check;
-mod giving_way;
+mod free_axis;
 pub mod kind;
 pub mod paths;
 pub mod plan;

@@ -14,7 +14,7 @@ const FIRST: f64 = 0.5;
 const GROWTH: f64 = 1.5;
 const TURN: f64 = 0.125;
 /// p/E* from which on some paths begin with opening, their share, and how far they open over (p/E*)^(2/3): less than what the box can
-/// bear, which is about 1.6.
+/// carry, which is about 1.6.
 const OPENING_FROM: f64 = 0.99e-5;
 const OPENING_SHARE: f64 = 0.3;
 const OPENING: f64 = 1.2;
@@ -67,8 +67,8 @@ pub struct Planned {
     pub increment: Increment,
     /// Strain relative to the packed state after the increment.
     pub strain: Strain,
-    /// The axis along which the box gives way so that its stress stays: that component of the strain is not planned, and 0 here.
-    pub gives_way: Option<usize>,
+    /// The axis along which the box yields so that its stress stays: that component of the strain is not planned, and 0 here.
+    pub free_axis: Option<usize>,
 }
 
 /// The rows of a path, in the order in which they are made. They depend on the seed of the packing, the name of the path and
@@ -78,12 +78,12 @@ pub fn planned(path: PathName, steps: &Steps) -> Vec<Planned> {
         return equivalence(steps);
     }
     let mut random = Random::new(path_seed(steps.seed, path));
-    let (targets, gives_way) = match path {
+    let (targets, free_axis) = match path {
         PathName::Mixed => (mixed(&mut random, steps), None),
         path => {
             let along = direction(path, &mut random);
-            let gives_way = (0..3).find(|axis| path == PathName::Pressed && along.stretch[*axis] == 0.0);
-            (there_and_back(path, along, &mut random, steps), gives_way)
+            let free_axis = (0..3).find(|axis| path == PathName::Pressed && along.stretch[*axis] == 0.0);
+            (there_and_back(path, along, &mut random, steps), free_axis)
         }
     };
     let mut here = Strain::default();
@@ -94,7 +94,7 @@ pub fn planned(path: PathName, steps: &Steps) -> Vec<Planned> {
             stop,
             increment: Increment { from_stop: stop - 1, step, turned: false },
             strain: here,
-            gives_way,
+            free_axis,
         }
     };
     (1..).zip(targets).map(row).collect()
@@ -221,7 +221,7 @@ fn equivalence(steps: &Steps) -> Vec<Planned> {
         for (step, turned) in [(grown, false), (shrunk, false), (along, false), (along, true)] {
             let stop = rows.len() as i64 + 1;
             let increment = Increment { from_stop: 0, step, turned };
-            rows.push(Planned { stop, increment, strain: step, gives_way: None });
+            rows.push(Planned { stop, increment, strain: step, free_axis: None });
         }
     }
     rows
@@ -268,7 +268,7 @@ mod tests {
         for path in PathName::ALL {
             let axes = planned(path, &STEPS)
                 .into_iter()
-                .map(|row| row.gives_way.map(|axis| row.strain.stretch[axis]));
+                .map(|row| row.free_axis.map(|axis| row.strain.stretch[axis]));
             assert!(axes.into_iter().all(|planned| planned == (path == PathName::Pressed).then_some(0.0)));
         }
     }

@@ -259,8 +259,8 @@ impl SphereRecord {
         })
     }
 
-    /// Whether the state was reached and bears load.
-    pub fn bears_load(&self) -> bool {
+    /// Whether the state was reached and carries load.
+    pub fn carries_load(&self) -> bool {
         self.outcome == Outcome::Settled.as_str() || self.outcome == Outcome::Capped.as_str()
     }
 }

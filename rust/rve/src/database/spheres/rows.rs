@@ -1,6 +1,6 @@
 //! The rows of one packing of spheres: its packed state and every stop of its paths.
 
-use super::giving_way::GivingWay;
+use super::free_axis::FreeAxis;
 use super::kind::PathName;
 use super::paths::Planned;
 use super::plan::SphereJob;
@@ -51,8 +51,8 @@ fn averaged(simulation: &Simulation) -> Result<Averages, String> {
     found.ok_or_else(|| "the network of its contacts was not solved".to_string())
 }
 
-/// The states of one path, or why they were not reached. A path ends where a failure happens or where the box bears no load
-/// any more. Where the box gives way along an axis, that part of the plan is filled in.
+/// The states of one path, or why they were not reached. A path ends where a failure happens or where the box carries no load
+/// any more. Where the box yields along an axis, that part of the plan is filled in.
 fn follow(
     packed: &Simulation,
     rest: Rest,
@@ -62,12 +62,12 @@ fn follow(
     let start = goes_on(packed.clone(), rest, 0);
     let mut here = start.clone();
     let mut results = Vec::new();
-    let mut giving_way = GivingWay::of(packed);
+    let mut free_axis = FreeAxis::of(packed);
     let mut strain = Strain::default();
     for row in planned {
-        if let Some(axis) = row.gives_way {
+        if let Some(axis) = row.free_axis {
             if let Ok(simulation) = &here {
-                row.increment.step.stretch[axis] = giving_way.next(simulation, axis, &row.increment.step);
+                row.increment.step.stretch[axis] = free_axis.next(simulation, axis, &row.increment.step);
             }
             strain = strain.then(row.increment.step);
             row.strain = strain;

@@ -70,7 +70,7 @@ fn row_laws(
     let same = |plan: &Planned| {
         let Increment { from_stop, turned, step } = plan.increment;
         let mut made = increment.step;
-        plan.gives_way.into_iter().for_each(|axis| made.stretch[axis] = step.stretch[axis]);
+        plan.free_axis.into_iter().for_each(|axis| made.stretch[axis] = step.stretch[axis]);
         (from_stop, turned) == (increment.from_stop, increment.turned) && agree(made, step, 4.0 * tolerance)
     };
     if plan.is_some_and(|plan| !same(plan)) {
@@ -90,7 +90,7 @@ fn row_laws(
         if !within(now - before * growth, 4.0 * tolerance) {
             found.push(("the solid fraction follows", format!("off by {:.3e}", now - before * growth)));
         }
-        if !from.bears_load() {
+        if !from.carries_load() {
             let text = format!("stop {}", increment.from_stop);
             found.push(("a path ends where no load is borne", text));
         }

@@ -51,7 +51,7 @@ fn state_laws(record: &SphereRecord, a: &Averages, pressure: f64, tolerance: f64
         ("F is positive", least_minor(a.fabric) >= -4.0 * tolerance, least_minor(a.fabric)),
         (
             "conductivity by contacts is positive",
-            !record.bears_load() || least_minor(conductivity) >= -4.0 * tolerance * size * size,
+            !record.carries_load() || least_minor(conductivity) >= -4.0 * tolerance * size * size,
             least_minor(conductivity),
         ),
         ("more gas number, more conductivity", 0.0 < low && low < middle && middle < high, middle),

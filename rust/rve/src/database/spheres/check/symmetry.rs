@@ -35,7 +35,7 @@ const QUANTITIES: [Quantity; 3] = [
 pub(super) fn symmetry(records: &[SphereRecord]) -> Vec<Mean> {
     let mut sizes: BTreeMap<u64, Vec<Averages>> = BTreeMap::new();
     let isotropic = |r: &&SphereRecord| {
-        r.path == PathName::Packed && r.compression == SphereCompression::Isotropic && r.bears_load()
+        r.path == PathName::Packed && r.compression == SphereCompression::Isotropic && r.carries_load()
     };
     for record in records.iter().filter(isotropic) {
         sizes.entry(record.spheres).or_default().extend(record.averages());

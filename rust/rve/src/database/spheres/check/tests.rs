@@ -58,10 +58,10 @@ fn every_broken_law_is_found_and_its_row_named() {
         ("the increment is the plan's", uniaxial, 1, |r| r.step_thermal = Some(1e-4)),
         ("strains add up", uniaxial, 2, |r| r.strain_zz += 1e-6),
         ("the increment is the plan's", pressed, 2, |r| r.step_thermal = Some(1e-4)),
-        // Along any axis, also that along which the box gives way.
+        // Along any axis, also that along which the box yields.
         ("strains add up", pressed, 2, |r| [r.step_xx, r.step_yy, r.step_zz] = [Some(-1e-4); 3]),
         ("radii that grow are a box that shrinks", twins, 1, |r| scale(&mut r.contact_conductivity_xx, 1.2)),
-        ("no law knows a direction", twins, 3, |r| r.stress_xy = Some(1e-5)),
+        ("all directions are equal", twins, 3, |r| r.stress_xy = Some(1e-5)),
     ];
     for (law, path, stop, damage) in cases {
         let mut damaged = dataset();
@@ -76,7 +76,7 @@ fn scale(value: &mut Option<f64>, factor: f64) {
     *value = value.map(|value| factor * value);
 }
 
-/// A shift of all packings alike is found in the mean, however small it is in each.
+/// A common shift of all packings is found in the mean, however small it is in each.
 #[test]
 fn a_preferred_direction_is_found() {
     let one = dataset().records[0].clone();
@@ -91,5 +91,5 @@ fn a_preferred_direction_is_found() {
         })
         .collect();
     let violations = check(&dataset).violations;
-    assert!(violations.iter().any(|v| v.law == "axes are alike" && v.found.contains("F: xx - yy")));
+    assert!(violations.iter().any(|v| v.law == "axes are equal" && v.found.contains("F: xx - yy")));
 }

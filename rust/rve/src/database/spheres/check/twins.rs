@@ -3,7 +3,7 @@
 //! * Radii that grow by 1 + ε in a fixed box, and a box that shrinks by the same factor around fixed radii: the same up to the scale. The
 //!   solid fraction is equal exactly. Friction forces keep their size in newtons while the stiffness grows with the radii, and boxes
 //!   come to rest at slightly different residual forces, so the others are nearly equal.
-//! * The box closes along x, and the same in a box whose axes have other names: no law of the engine knows a direction. Sums are
+//! * The box closes along x, and the same in a box whose axes have other names: the engine's laws have no preferred direction. Sums are
 //!   taken in another order there, so what is left is round-off, until a grain slides in one of them only.
 //!
 //! So single pairs have a wide bound, which finds damage, and the median over all pairs a narrow one.
@@ -124,7 +124,7 @@ pub(super) fn twins(records: &[SphereRecord], tolerance: f64) -> (Vec<TwinDiffer
 }
 
 fn law(turned: bool) -> &'static str {
-    if turned { "no law knows a direction" } else { "radii that grow are a box that shrinks" }
+    if turned { "all directions are equal" } else { "radii that grow are a box that shrinks" }
 }
 
 /// Pairs in which both came to rest under load.

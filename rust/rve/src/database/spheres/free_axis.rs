@@ -1,6 +1,6 @@
-//! A box that gives way along one axis, so that the stress along that axis stays as it was packed.
+//! A box that yields along one axis, so that the stress along that axis stays as it was packed.
 //!
-//! How far it gives way in an increment is not known before: it is chosen from a guess of its stiffness, and from how much earlier
+//! How far it yields in an increment is not known before: it is chosen from a guess of its stiffness, and from how much earlier
 //! increments missed the stress. So the stress stays within some per cent of what it should be, and each row of the database has the strain
 //! that was made.
 
@@ -12,14 +12,14 @@ use msdd_spheres::Simulation;
 const REFERENCE_BULK: f64 = 0.06;
 /// Stiffness along an axis over dp/dv.
 const ALONG: f64 = 1.6;
-/// How far a box gives way over how far it closes along each of the two other axes, at first; and the largest.
+/// How far a box yields over how far it closes along each of the two other axes, at first; and the largest.
 const FIRST: f64 = 1.2;
 const MOST: f64 = 4.0;
 /// Share of a difference of the stress by which that ratio is changed.
 const LEARNED: f64 = 0.3;
 
-/// What is known of how far the box gives way.
-pub(super) struct GivingWay {
+/// What is known of how far the box yields.
+pub(super) struct FreeAxis {
     /// Stress of the packed state.
     packed: [f64; 3],
     ratio: f64,
@@ -27,7 +27,7 @@ pub(super) struct GivingWay {
     closed: f64,
 }
 
-impl GivingWay {
+impl FreeAxis {
     pub(super) fn of(packed: &Simulation) -> Self {
         Self { packed: along_axes(packed), ratio: FIRST, closed: 0.0 }
     }
