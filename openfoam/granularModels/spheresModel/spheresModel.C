@@ -170,12 +170,21 @@ static const keyTable sphereWallKeys
             "0.01 to 1.16", "0.87"
         },
         {
+            "gap",
+            "distance between the wall and the end of the mesh over a diameter:"
+            " 0.125 where a bed as dense as inside, without the wider pores"
+            " beside the wall, would hold all spheres", "-", "0 to 0.5", "0"
+        },
+        {
             "emissivity",
             "emissivity of the wall, which exchanges radiation with spheres that"
             " radiate", "-", "0 to 1", "as of the spheres"
         }
     }
 );
+
+//- Resistance of a wall to which nothing conducts, as of the library [m2 K/W]
+static const scalar nothing = 1e9;
 
 //- Change of the stress at the start, over the pressure, that is reported
 static const scalar notable = 1e-3;
@@ -231,6 +240,12 @@ Foam::granularModels::spheres::spheres
 {
     completeGrains();
     wall_ = wall();
+    if (hasWall_)
+    {
+        wallGap_ =
+            2*properties_.meanRadius().value()
+           *sphereWallKeys.number(coeffs_.subDict("wall"), "gap");
+    }
     keys.check(coeffs_);
 }
 
@@ -580,6 +595,10 @@ void Foam::granularModels::spheres::wallResistance
     catch (const std::exception& error)
     {
         failed("a wall", error);
+    }
+    if (wallGap_ > 0)
+    {
+        resistance = min(resistance + wallGap_/conductivity, nothing);
     }
 }
 

@@ -122,7 +122,7 @@ class Walls(unittest.TestCase):
         found = msdd.wall_resistance(grains, wall, stress=[1e4, 8e4, 0], conductivity=0.5)
         square = 6e-3**2 / 0.5
         radius = np.cbrt(0.75 * 1e4 * square * 3e-3 / (1e11 / (1 - 0.3**2)))
-        self.assertAlmostEqual(found[0] / (square / (2 * radius * 40) - 3e-3 / 0.5), 1, places=10)
+        self.assertAlmostEqual(found[0] / (square / (0.8 * 2 * radius * 40) - 0.88 * 3e-3 / 0.5), 1, places=10)
         self.assertEqual(found[2], 1e9)
         self.assertLess(found[1], found[0])
 

@@ -96,7 +96,7 @@ region_message() { # message: the run must have failed with it, in words that ma
 }
 
 # Smooth spheres in a vacuum between 400 K and, behind a plate, 300 K. Contacts alone conduct, so that the wall's resistance is
-# that of Hertz's contacts without the bed's own half diameter: n (2 a k)/d^2, a = (3 F r/(4 E*))^(1/3), F = p d^2/n.
+# that of Hertz's contacts without 0.88 of the bed's own half diameter: 0.8 n (2 a k)/d^2, a = (3 F r/(4 E*))^(1/3), F = p d^2/n.
 own='granularContact; value uniform 350;'
 contact_case() { # folder, wall of spheresCoeffs, condition of T between the two
     regions "$1" 'bed plate' 60
@@ -122,9 +122,9 @@ own_contact() {
     K=$(field 100000000000/bed/conductivity | awk 'NR == 1 { print $1 }')
     R=$(sed -n '/^    right/,/}/p' 100000000000/bed/wallResistance | grep -o 'uniform [0-9.e+-]*\|^[0-9.e+-]*$' | head -n 1 | sed 's/uniform //')
     law=$(awk -v K="$K" 'BEGIN { d = 2e-3; n = 0.5; E = 200e9/(2*(1 - 0.29^2)); F = 1e4*d*d/n; a = (0.75*F*1e-3/E)^(1/3)
-        k = 2*42*15/(42 + 15); printf "%.10g", d*d/(n*2*a*k) - 1e-3/K }')
+        k = 2*42*15/(42 + 15); printf "%.10g", d*d/(0.8*n*2*a*k) - 0.88e-3/K }')
     e=$(awk "BEGIN { e = $R/$law - 1; print (e < 0 ? -e : e) }")
-    check "resistance of a wall: $R m2 K/W, Hertz's contacts without half a diameter of the bed $law, differ by $e <= 1e-8" below "$e" 1e-8
+    check "resistance of a wall: $R m2 K/W, Hertz's contacts without 0.44 diameters of the bed $law, differ by $e <= 1e-8" below "$e" 1e-8
     law=$(awk "BEGIN { printf \"%.10g\", 100/(0.02/$K + $R + 0.01/15) }")
     q=$(flux_through 100000000000/plate/T 0.00125 15)
     e=$(awk "BEGIN { e = $q/$law - 1; print (e < 0 ? -e : e) }")
@@ -162,7 +162,7 @@ radiating_contact() { # at 1000 K: contacts and radiation side by side to the fi
     R=$(sed -n '/^    right/,/}/p' 100000000000/bed/wallResistance | grep -o 'uniform [0-9.e+-]*\|^[0-9.e+-]*$' | head -n 1 | sed 's/uniform //')
     law=$(awk -v dark="${K[0]}" -v K="${K[1]}" 'BEGIN { d = 2e-3; n = 0.5; E = 200e9/(2*(1 - 0.29^2)); F = 1e4*d*d/n; a = (0.75*F*1e-3/E)^(1/3)
         k = 2*42*15/(42 + 15); black = 4*5.670374e-8*999.5^3; factor = (K - dark)/(black*d)
-        printf "%.10g", 1/(n*2*a*k/d/d + black/(1/0.8 - 0.44 + 0.335/factor)) - 1e-3/K }')
+        hr = black/(1/0.8 - 0.44 + 0.335/factor); h = 0.8*n*2*a*k/d/d + hr; printf "%.10g", 1/h - 1e-3*(0.88 + 0.12*hr/h)/K }')
     e=$(awk "BEGIN { e = ($R - $law)/$law; print (e < 0 ? -e : e) }")
     check "a wall that radiates: $R m2 K/W, closed form $law, differ by $e <= 0.03" below "$e" 0.03
 }
@@ -241,9 +241,9 @@ slab() { # folder, condition of the hot wall, of the cold wall, further entries 
     logged blockMesh
 }
 held() { echo "type granularWall; mode temperature; temperature $1;"; }
-slab_law() { # flux and both ends of T in the cells, of conductances [W/(m2 K)] next to the resistance at the hot wall, and T there; of the cold wall
-    awk -v K="$1" -v hot="$2" -v h="$3" -v cold="$4" 'BEGIN { d = 2e-3; n = 0.5; E = 200e9/(2*(1 - 0.29^2)); F = 1e4*d*d/n
-        a = (0.75*F*1e-3/E)^(1/3); k = 2*42*15/(42 + 15); R = d*d/(n*2*a*k) - 1e-3/K; outer = h ? 1/h : 0
+slab_law() { # flux and both ends of T in the cells, of K, T and conductance [W/(m2 K)] next to the resistance at the hot wall, T of the cold wall, gap
+    awk -v K="$1" -v hot="$2" -v h="$3" -v cold="$4" -v gap="${5:-0}" 'BEGIN { d = 2e-3; n = 0.5; E = 200e9/(2*(1 - 0.29^2)); F = 1e4*d*d/n
+        a = (0.75*F*1e-3/E)^(1/3); k = 2*42*15/(42 + 15); R = d*d/(0.8*n*2*a*k) - (0.88e-3 - gap*d)/K; outer = h ? 1/h : 0
         q = (hot - cold)/(0.02/K + 2*R + outer); dx = 0.02/16
         printf "%.12g %.12g %.12g %.12g", R, q, hot - q*(outer + R + 0.5*dx/K), cold + q*(R + 0.5*dx/K) }'
 }
@@ -260,6 +260,12 @@ walls_not_meshed() {
     e=$(slab_errors $t/T "$law")
     check "walls of given temperature with their resistance ($law: m2 K/W, W/m2, ends of T): T is the closed form within $e <= 1e-8 of the range (linear solver)" below "$e" 1e-8
     check "the log says how much bed a wall stands for" grep -q 'Wall hot: the resistance between wall and grains is that of 0\.0' log
+    slab slab-gap "$(held 400)" "$(held 300)"
+    sed -i 's/spheres 0.5;/spheres 0.5; gap 0.125;/' constant/granularProperties
+    logged msddFoam
+    law=$(slab_law "$K" 400 0 300 0.125)
+    e=$(slab_errors $t/T "$law")
+    check "a mesh that ends 0.125 d before the walls: T is the closed form within $e <= 1e-8 of the range" below "$e" 1e-8
     slab slab-coefficient 'type granularWall; mode coefficient; h 10; Ta 400;' "$(held 300)"
     logged msddFoam
     e=$(slab_errors $t/T "$(slab_law "$K" 400 10 300)")

@@ -105,9 +105,9 @@ fn values(scene: &SphereCase, name: &str, checkout: &Path) -> Result<Values, Cas
         ("libraries", libraries(&scene.walls, scene.wall_material.is_some())),
         (
             "wall",
-            scene
-                .wall_material
-                .map_or(String::new(), |wall| wall.entry(scene.spheres.roughness, scene.spheres.hardness)),
+            scene.wall_material.map_or(String::new(), |wall| {
+                wall.entry(scene.spheres.roughness, scene.spheres.hardness, 0.0)
+            }),
         ),
         ("wallResistance", wall_resistance(scene)),
         ("wallRows", wall_rows(named())),

@@ -69,17 +69,18 @@ impl WallMaterial {
     }
 
     /// The entry `wall` of `spheresCoeffs`, for spheres of this roughness \[m\] and hardness \[Pa\] on a polished wall: they have the
-    /// asperities, and the softer of both yields.
-    pub fn entry(&self, roughness: f64, hardness: f64) -> String {
+    /// asperities, and the softer of both yields. The mesh ends `gap` diameters before the wall.
+    pub fn entry(&self, roughness: f64, hardness: f64, gap: f64) -> String {
         let rough = match roughness > 0.0 {
             true => {
                 format!(" roughness {}; hardness {};", plain(roughness), plain(self.hardness.min(hardness)))
             }
             false => String::new(),
         };
+        let gap = if gap > 0.0 { format!(" gap {};", plain(gap)) } else { String::new() };
         format!(
             "\n        // Walls with the condition granularWall in 0/T: {}, polished. The resistance between wall and spheres follows from it\n\
-             \x20       wall {{ thermalConductivity {}; youngModulus {}; poissonRatio {};{rough} }}\n",
+             \x20       wall {{ thermalConductivity {}; youngModulus {}; poissonRatio {};{rough}{gap} }}\n",
             self.name,
             plain(self.thermal_conductivity),
             plain(self.young_modulus),

@@ -1,6 +1,6 @@
 //! `msdd bed case`: the bed of a `bed.toml` as a case folder of the solver.
 
-use super::geometry::Geometry;
+use super::geometry::{Geometry, INSULATED};
 use crate::case::checkout;
 use crate::error::CliError;
 use clap::Args;
@@ -34,7 +34,7 @@ const GIVE: &str = "slackLayer 1; slackRecovery 0.1;";
 The solver's bed starts from the state of DEM: porosity, stress, contacts per sphere, mobilised friction
 and fabric. A bed between plates becomes a column of cells, a cylinder a wedge. The mesh ends where the centres of the first layer
 are, because a heated wall of DEM holds these, and a sixth of a diameter further in at a heated floor; where heat
-goes along the axis to a plate that is not heated, an eighth of a diameter before that.")]
+goes along the axis to a plate that is not heated, an eighth of a diameter before that, as before a wall that resists.")]
 pub struct Arguments {
     /// Folder with bed.toml.
     case: PathBuf,
@@ -210,7 +210,7 @@ fn properties(scene: &BedCase, start: &FirstRow, geometry: &Geometry) -> String 
         hardness,
     };
     let surface = match scene.heated.iter().any(|heated| heated.resists) {
-        true => surface.entry(grains.roughness.unwrap_or(0.0), hardness),
+        true => surface.entry(grains.roughness.unwrap_or(0.0), hardness, INSULATED),
         false => String::new(),
     };
     let spread = grains.sizes.as_ref().map_or(String::new(), |_| {

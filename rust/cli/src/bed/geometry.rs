@@ -18,7 +18,7 @@ const WIDTH: f64 = 3.0;
 /// Where the mesh ends before a plate, in diameters. A plate that is heated holds the first layer of grains at its temperature: the mesh
 /// ends at their centres. On a floor, where these lie flat and the next layer lies in their hollows, the temperatures of the grains
 /// reach that of the floor a little higher. Before the other plate, if it is not heated, the mesh ends where a bed without the wider pores
-/// next to plates would hold all grains, and so their heat.
+/// next to plates would hold all grains, and so their heat; also before a wall with a resistance, of which the rest of the way is a part.
 pub(super) const HELD: f64 = 0.5;
 const HELD_BY_FLOOR: f64 = 0.66;
 pub(super) const INSULATED: f64 = 0.125;
@@ -35,6 +35,8 @@ pub struct Geometry {
     pub widening: f64,
     /// Whether the column stands for a bed without sides, whose sides are planes of symmetry.
     pub endless: bool,
+    /// Up to where DEM counts the spheres outside of the averages, over where the mesh ends: to a side that resists.
+    counted: f64,
     /// Cells between the levels, and between the radii.
     cells: ([usize; 3], [usize; 2]),
     diameter: f64,
@@ -58,12 +60,11 @@ impl Geometry {
             ));
         }
         let diameter = scene.grains.diameter;
-        let half = if scene.resists("side") { 0.0 } else { HELD * diameter };
+        let half = diameter * if scene.resists("side") { INSULATED } else { HELD };
         let flows_along = heated("floor") || heated("lid");
         let insulated = if flows_along { INSULATED } else { HELD };
-        // Up to a wall that resists: what is next to it is in its resistance.
         let end = |wall: &str, held: f64, other: f64| match (scene.resists(wall), heated(wall)) {
-            (true, _) => 0.0,
+            (true, _) => INSULATED * diameter,
             (false, true) => held * diameter,
             (false, false) => other * diameter,
         };
@@ -111,8 +112,18 @@ impl Geometry {
         let radial = radii
             .map_or(vec![1; 2], |[a, b, c]| share(&[b - a, c - b], if heated("side") { 20.0 } else { 4.0 }));
         let widening = scene.container.radius.map_or(1.0, |radius| radius / (radius - half));
+        let counted = if scene.resists("side") { widening } else { 1.0 };
         let cells = ([axial[0], axial[1], axial[2]], [radial[0], radial[1]]);
-        Ok(Self { levels, radii, widening, endless: scene.container.endless, cells, diameter, plates: depth })
+        Ok(Self {
+            levels,
+            radii,
+            widening,
+            endless: scene.container.endless,
+            cells,
+            diameter,
+            plates: depth,
+            counted,
+        })
     }
 
     /// Of the mesh along the axis [m].
@@ -138,8 +149,8 @@ impl Geometry {
     pub fn porosity(&self, start: &FirstRow) -> f64 {
         match (self.radii, start.porosity_outside) {
             (Some([_, inner, radius]), Some(outside)) => {
-                let share = (inner / radius).powi(2);
-                share * start.porosity + (1.0 - share) * outside
+                let (share, all) = ((inner / radius).powi(2), self.counted.powi(2));
+                1.0 - share * (1.0 - start.porosity) - (all - share) * (1.0 - outside)
             }
             _ => start.porosity,
         }
@@ -183,5 +194,27 @@ impl Geometry {
         let zone = Some(("bulk", [1, 0]));
         let (levels, cells) = (self.levels.to_vec(), axial.to_vec());
         Blocks { across, levels, cells, patches, order, zone, digits: 13, symmetric: self.endless }.text()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A mesh that ends before a side that resists has the volume of all spheres up to the side.
+    #[test]
+    fn a_mesh_before_a_side_that_resists_holds_all_spheres() {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../cases/beds/round-shell");
+        let mut scene = BedCase::read(&folder).unwrap();
+        scene.heated[0].resists = true;
+        let start = FirstRow::read(&folder.join("dem-1.csv")).unwrap();
+        let geometry = Geometry::new(&folder, &scene, start.depth).unwrap();
+        let (side, inner) = (scene.container.radius.unwrap(), scene.record.radius.unwrap());
+        let end = geometry.radii.unwrap()[2];
+        assert!((end - (side - 0.125 * scene.grains.diameter)).abs() < 1e-12, "{end}");
+        let spheres = (1.0 - start.porosity) * inner * inner
+            + (1.0 - start.porosity_outside.unwrap()) * (side * side - inner * inner);
+        let meshed = (1.0 - geometry.porosity(&start)) * end * end;
+        assert!((meshed / spheres - 1.0).abs() < 1e-12, "{meshed} {spheres}");
     }
 }

@@ -96,14 +96,18 @@ mod tests {
     }
 
     /// The case of a shipped bed, read again. Needs OpenFOAM, because it reads the files through foamDictionary.
-    fn there_and_back(bed: &str, results: &str) -> Option<(BedCase, BedCase)> {
+    fn there_and_back(bed: &str, results: &str, resists: bool) -> Option<(BedCase, BedCase)> {
         std::process::Command::new("foamDictionary").arg("-help").output().ok()?;
         let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../cases").join(bed);
-        let scene = BedCase::read(&folder).unwrap();
+        let mut scene = BedCase::read(&folder).unwrap();
+        scene.heated.iter_mut().for_each(|heated| heated.resists = resists);
         let start = FirstRow::read(&folder.join(results)).unwrap();
         let files = foam::files(&folder, &scene, &start, "bed", Path::new("/checkout")).unwrap();
-        let case =
-            std::env::temp_dir().join(format!("msdd-from-{}-{}", bed.replace('/', "-"), std::process::id()));
+        let case = std::env::temp_dir().join(format!(
+            "msdd-from-{}-{resists}-{}",
+            bed.replace('/', "-"),
+            std::process::id()
+        ));
         msdd_case::folder::write(&case, &files).unwrap();
         let again = Reader::open(&case).unwrap().scene().unwrap();
         again.checked(&case.join(FILE)).unwrap();
@@ -139,7 +143,7 @@ mod tests {
 
     #[test]
     fn a_column_becomes_the_bed_that_it_was_made_of() {
-        let Some((scene, again)) = there_and_back("column", "dem.csv") else { return };
+        let Some((scene, again)) = there_and_back("column", "dem.csv", false) else { return };
         same(&scene, &again);
         assert!(again.container.endless && again.lid_moves().1.is_none());
         (0..2).for_each(|k| near(again.container.base.unwrap()[k], scene.container.base.unwrap()[k], 0.05));
@@ -153,16 +157,20 @@ mod tests {
 
     #[test]
     fn a_wedge_becomes_the_cylinder_that_it_was_made_of() {
-        let Some((scene, again)) = there_and_back("beds/round-shell", "dem-1.csv") else { return };
-        same(&scene, &again);
-        near(again.container.radius.unwrap(), scene.container.radius.unwrap(), 1e-6);
-        near(again.record.radius.unwrap(), scene.record.radius.unwrap(), 1e-6);
-        near(again.pressure(), scene.pressure(), 1e-6);
-        near(again.lid_moves().1.unwrap().at(0.0), 2e4, 1e-6);
-        let (a, b) = (again.shell.unwrap(), scene.shell.unwrap());
-        near(a.thickness, b.thickness, 1e-6);
-        assert_eq!((a.young_modulus, a.thermal_expansion), (b.young_modulus, b.thermal_expansion));
-        let Some((scene, again)) = there_and_back("beds/friction-round", "dem-1.csv") else { return };
+        for resists in [false, true] {
+            let Some((scene, again)) = there_and_back("beds/round-shell", "dem-1.csv", resists) else {
+                return;
+            };
+            same(&scene, &again);
+            near(again.container.radius.unwrap(), scene.container.radius.unwrap(), 1e-6);
+            near(again.record.radius.unwrap(), scene.record.radius.unwrap(), 1e-6);
+            near(again.pressure(), scene.pressure(), 1e-6);
+            near(again.lid_moves().1.unwrap().at(0.0), 2e4, 1e-6);
+            let (a, b) = (again.shell.unwrap(), scene.shell.unwrap());
+            near(a.thickness, b.thickness, 1e-6);
+            assert_eq!((a.young_modulus, a.thermal_expansion), (b.young_modulus, b.thermal_expansion));
+        }
+        let Some((scene, again)) = there_and_back("beds/friction-round", "dem-1.csv", false) else { return };
         near(again.grains.wall_friction, scene.grains.wall_friction, 0.03);
     }
 }

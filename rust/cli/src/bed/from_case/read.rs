@@ -82,7 +82,7 @@ impl<'a> Reader<'a> {
     pub fn scene(&mut self) -> Result<BedCase, CliError> {
         let heated = self.heated()?;
         let mut grains = self.grains()?;
-        let extent = self.mesh.extent(grains.diameter, |name| heated.iter().any(|one| one.wall == name));
+        let extent = self.mesh.extent(grains.diameter, &heated);
         let porosity = self.mean("0/porosity")?;
         let walls = Walls::read(&self.properties, &self.mesh, &mut self.notes)?;
         grains.wall_friction = walls.friction;
@@ -225,6 +225,7 @@ impl<'a> Reader<'a> {
                 return Err(patches.refuse(patch, "missing", "a condition of the wall").into());
             };
             let kind = condition.text("type")?;
+            let mut resists = false;
             let function = match kind.as_str() {
                 "fixedValue" => schedule(condition.value("value")?, 1, |value| value[0]),
                 "uniformFixedValue" => match condition.get("uniformValue") {
@@ -232,9 +233,12 @@ impl<'a> Reader<'a> {
                     _ => None,
                 },
                 "granularWall" if condition.get("temperature").is_some() => {
-                    self.notes.push(format!(
-                        "0/T: the wall {wall} holds the first layer at the temperature of '{patch}'; its resistance is left out"
-                    ));
+                    resists = true;
+                    if !self.mesh.is_of_elements {
+                        self.notes.push(format!(
+                            "0/T: the surface of the wall {wall} has the temperature of '{patch}', and the stiffness and asperities of the spheres"
+                        ));
+                    }
                     schedule(condition.value("temperature")?, 1, |value| value[0])
                 }
                 "zeroGradient" => continue,
@@ -244,7 +248,7 @@ impl<'a> Reader<'a> {
                 _ => None,
             };
             match function {
-                Some(temperature) => heated.push(Heated::new(wall, temperature)),
+                Some(temperature) => heated.push(Heated { resists, ..Heated::new(wall, temperature) }),
                 None => self.notes.push(format!(
                     "0/T: the condition of '{patch}' (type {kind}) is left out, the wall {wall} is insulated; possible: a temperature, \
                      constant or a table over time"

@@ -2,6 +2,7 @@
 
 use crate::bed::geometry::{HELD, INSULATED};
 use crate::error::CliError;
+use msdd_beds::case::Heated;
 use msdd_case::case::corners;
 use msdd_case::dictionary::{Dictionary, Token, joined};
 use msdd_case::spheres::shape::Shape;
@@ -114,18 +115,25 @@ impl Mesh {
         self.levels[self.levels.len() - 1] - self.levels[0]
     }
 
-    /// The bed of spheres of a diameter [m]; `heated`: which of its walls are.
-    pub fn extent(&self, diameter: f64, heated: impl Fn(&str) -> bool) -> Extent {
+    /// The bed of spheres of a diameter [m]; `walls`: those that are heated.
+    pub fn extent(&self, diameter: f64, walls: &[Heated]) -> Extent {
         let outer = self.radii.last().copied();
         if !self.is_of_elements {
             return Extent { depth: self.depth(), floor: self.levels[0], radius: outer };
         }
-        let flows_along = heated("floor") || heated("lid");
-        let before_lid = if heated("lid") || !flows_along { HELD } else { INSULATED };
+        let resists = |name: &str| walls.iter().find(|one| one.wall == name).map(|one| one.resists);
+        let (floor, lid) = (resists("floor"), resists("lid"));
+        // As Geometry of 'msdd bed case' ends its mesh.
+        let before_lid = match lid {
+            Some(true) => INSULATED,
+            None if floor.is_some() => INSULATED,
+            _ => HELD,
+        };
+        let before_side = if resists("side") == Some(true) { INSULATED } else { HELD };
         Extent {
             depth: self.levels[self.levels.len() - 1] + before_lid * diameter,
             floor: 0.0,
-            radius: outer.map(|radius| radius + HELD * diameter),
+            radius: outer.map(|radius| radius + before_side * diameter),
         }
     }
 }
