@@ -3,8 +3,8 @@
 //! Spheres are poured into cylinders, a lid is pressed on, and each sphere releases heat, which leaves through the side alone, by contacts and gas. The
 //! temperatures far from the side are a parabola, T₀ − b r²: it gives the conductivity K of the bed inside across the axis, with the solid
 //! fraction there.
-//! A bed of this solid fraction and conductivity that holds all spheres ends at the distance e before the side, because pores beside it are
-//! wider; from where it ends, the side adds the resistance R. It is printed in d/K, beside the law of walls ([`msdd_beds::wall`]) and e.
+//! A bed of this solid fraction and conductivity that holds all spheres ends at the distance e before the side, because pores next to it are
+//! wider; from where it ends, the side adds the resistance R. It is printed in d/K, next to the law of walls ([`msdd_beds::wall`]) and e.
 
 use msdd_beds::effective::BedMaterial;
 use msdd_beds::named_gases::GasName;
@@ -156,7 +156,7 @@ fn stress_on_side(bed: &Simulation, counts: impl Fn(usize) -> bool) -> f64 {
     sum
 }
 
-/// T of spheres that each release `heat` \[W\] beside a plate of 0 K; conjugate gradients.
+/// T of spheres that each release `heat` \[W\] next to a plate of 0 K; conjugate gradients.
 fn steady(
     count: usize,
     heat: f64,

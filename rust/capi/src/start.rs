@@ -1,4 +1,4 @@
-//! What a caller knows of cells at the start, checked.
+//! Values of cells at the start, given by a caller and checked.
 
 use crate::abi::msdd_start;
 use crate::columns::{Input, check_length};

@@ -211,7 +211,7 @@ fn packings_are_for_moving_beds_and_more_than_one() {
     assert_eq!(refused.status.code(), Some(1));
     assert!(String::from_utf8(refused.stderr).unwrap().contains("would be too large"));
     assert!(!out.exists());
-    // A folder that cannot be made is told before anything is computed.
+    // A folder that cannot be made is reported before anything is computed.
     let under_a_file = case.join("bed.toml/out");
     for more in [&[][..], &["--packings", "2"]] {
         let refused = run(&case, &under_a_file, more);

@@ -34,7 +34,7 @@ pub enum DocsError {
     Json { file: PathBuf, text: String },
     #[error("there is no section '{name}', allowed: {names}")]
     Section { name: String, names: String },
-    /// What cannot be printed into a page; whoever knows the page adds the place.
+    /// What cannot be printed into a page; the caller adds the page.
     #[error("{0}")]
     Print(String),
     #[error("{}", .0.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n"))]

@@ -42,7 +42,7 @@ pub fn check(root: &Path, files: &[PathBuf]) -> Result<(), DocsError> {
     none_found(findings)
 }
 
-/// What is wrong with a link, if anything. `listed`: pages of the table of contents; one that is missing is told there, not
+/// What is wrong with a link, if anything. `listed`: pages of the table of contents; one that is missing is reported there, not
 /// again at every link to it.
 fn link(
     root: &Path,

@@ -70,7 +70,7 @@ for kind in straight slanted triangles; do # straight: the heat equation is asse
     check "K_xy, $kind: in an insulated box the mean of T stays to $e <= 1e-9 K" below "$e" 1e-9
 done
 
-held() { # shape, time scheme: cells that are held at a temperature, some beside a wall: the heat that this takes counts as a source
+held() { # shape, time scheme: cells that are held at a temperature, some next to a wall: the heat that this takes counts as a source
     local e
     audited "audit-held-$1-$2" "$1"
     grains 'thermalExpansion 0;'

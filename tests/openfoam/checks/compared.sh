@@ -69,7 +69,7 @@ hot_alumina() { # what the closed form of rust/beds/src/radiation.rs adds in a v
         sed -i 's/^\( *\)emissivity .*/&\n\1radiation off;/' constant/granularProperties
         logged msddFoam
         off=$(conductivity)
-        check "without it the bed conducts $off in place of $on W/(m K)" is_within "$(echo "$on $off $expected" | awk '{ print ($1 - $2)/$3 }')" 0.99 1.01
+        check "without it the bed conducts $off instead of $on W/(m K)" is_within "$(echo "$on $off $expected" | awk '{ print ($1 - $2)/$3 }')" 0.99 1.01
         warned "which is said" "Radiation would add about $added W/\\(m K\\) at $t K to the .* and is not in the model; emissivity $emissivity \\(radiation is off\\)"
         said "and at the end, too" "Warning: Radiation would add about [0-9.]+ W/\\(m K\\) at $t K"
     done
@@ -91,7 +91,7 @@ within() { # steel under 20 kPa, warmed by a few kelvin
     logged msddFoam
     said "a run like those that were compared" 'Range: no state was outside the range of the model, and the run lies within what it was compared with'
     check "has no such warning" [ "$(grep -c 'Beyond what' log)" = 0 ]
-    said "forces of contacts are told all the same" 'Contacts: at a pressure of 1[0-9.]* kPa the mean force'
+    said "forces of contacts are reported all the same" 'Contacts: at a pressure of 1[0-9.]* kPa the mean force'
     # Extremes of the time before a restart
     sed -i 's/uniform 300/uniform 293/' 0/T
     rm -rf ../warmer

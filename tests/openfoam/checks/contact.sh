@@ -150,7 +150,7 @@ own_contact() {
     check "gas takes from the resistance of the wall" awk "BEGIN { exit !($(sed -n '/^    right/,/}/p' 100000000000/bed/wallResistance \
         | grep -o 'uniform [0-9.e+-]*' | head -n 1 | sed 's/uniform //') < 0.2*$R) }"
 }
-radiating_contact() { # at 1000 K: contacts and radiation side by side to the first spheres; F of the bed is that of 0.6 in place of 0.58 of solid
+radiating_contact() { # at 1000 K: contacts and radiation side by side to the first spheres; F of the bed is that of 0.6 instead of 0.58 of solid
     local K=() R law e emissivity
     for emissivity in 0 0.8; do
         contact_case contact-radiates "$steel_wall" "$own"
@@ -202,7 +202,7 @@ of_discs() { # discs touch a wall better than each other: the wall adds nothing
         logged chtMultiRegionFoam
     done
     e=$(largest_difference 70 "field $work/discs-own/1/plate/T" "field $work/discs-stock/1/plate/T")
-    check "a wall beside discs adds nothing: T differs by $e <= 1e-10 of the range from the stock condition" below "$e" 1e-10
+    check "a wall next to discs adds nothing: T differs by $e <= 1e-10 of the range from the stock condition" below "$e" 1e-10
 }
 walls_that_cannot_be() {
     contact_case contact-bad '' "$own"

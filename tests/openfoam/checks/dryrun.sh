@@ -72,7 +72,7 @@ dry_others() {
     find . -type f -exec sed -i "s,[./]*/common/,$checkout/cases/common/," {} +
     logged blockMesh
     logged blockMesh -region wall
-    check "dry run: a solid beside the bed" passes
+    check "dry run: a solid next to the bed" passes
     check "dry run: no warning of a library that is not there" bash -c '! grep -q "Could not load" log.dry'
     sed -i '/granularContact;/,/}/s/value .*//' 0/wall/T
     check "dry run: the condition between bed and solid needs no value" passes

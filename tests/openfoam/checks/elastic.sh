@@ -274,7 +274,7 @@ refusals() {
     check "refused: a piston that is not flat" refused 'is a piston but not flat'
     solid piston-that-is-held 'walls { ".*" { type frictionless; } top { type piston; pressure constant 1; } high { type displacement; displacement constant (0 0 0); } }'
     cube 2
-    check "refused: a piston that a wall beside it holds" refused 'is a piston, and a wall next to it keeps'
+    check "refused: a piston that a wall next to it holds" refused 'is a piston, and a wall next to it keeps'
     solid inside-out-cell 'walls { ".*" { type frictionless; } }'
     cube 2
     awk '/^\(/ && NF == 3 && match($0, /^\(.*\)$/) && ++n == 14 { print "(1.7 1.7 1.7)"; next } { print }' constant/polyMesh/points > points.new

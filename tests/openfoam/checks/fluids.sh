@@ -23,7 +23,7 @@ water_past_a_plate() {
     e=$(awk "BEGIN { e = $given/$carried - 1; print (e < 0 ? -e : e) }")
     check "bed, plate and water that flows: $given J left the solids, $carried J went with the water or stayed in it, differ by $e <= 1e-9" below "$e" 1e-9
     e=$(tail -n 1 postProcessing/regionHeat/*/regionHeat.dat | awk '{ print $NF }')
-    check "heat over the solids beside water closes to $e <= 1e-9" below "$e" 1e-9
+    check "heat over the solids next to water closes to $e <= 1e-9" below "$e" 1e-9
 }
 bed_that_radiates() { # 1000 K | bed | air at rest | black wall of 300 K: q = K (1000 - T)/a = sigma (T^4 - 300^4) + k (T - 300)/b
     local e T

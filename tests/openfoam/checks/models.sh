@@ -14,7 +14,7 @@ changed paper-network
 grains 'surrogate { model builtin:paper; outOfTrainingRange { porosity { below clamp; } } }'
 mesh_is '12 6 1'
 logged msddFoam
-check "network: the paper's has no state beside porosity and fabric" test ! -e 1/elasticCompression
+check "network: the paper's has no state but porosity and fabric" test ! -e 1/elasticCompression
 
 changed affine # the affine upper bound must conduct better, and everything else be the same
 grains 'surrogate { conductivity affine; }'

@@ -159,7 +159,7 @@ weights() {
     grains 'restStress { lateral 0.5; }'
     gravity_is '0 0 -9.81'
     cube 2
-    check "refused: restStress beside the field stress" refused "Entry 'restStress' is given together with the field stress"
+    check "refused: restStress together with the field stress" refused "Entry 'restStress' is given together with the field stress"
     rm constant/g
     check "refused: restStress without gravity" refused "Entry 'restStress' needs gravity"
     gravity_is '0 0 -9.81'
@@ -184,7 +184,7 @@ resting_shell() { # folder, what, pressure on the lid [Pa]
     e=$(field 1/nodeDisplacement | awk '{ for (k = 1; k <= 3; k++) { e = $k < 0 ? -$k : $k; if (!(e <= w)) w = e } } END { print (NR ? w + 0 : "nan") }')
     check "a shell under $2 stays at rest: it moves by $e <= 1e-9 m" below "$e" 1e-9
     e=$(field 2/nodeDisplacement | awk '{ if ($1 > w) w = $1 } END { print w }')
-    check "and gives way under more: $e m, from 1e-4 to 4e-3" awk "BEGIN { exit !($e > 1e-4 && $e < 4e-3) }"
+    check "and yields under more: $e m, from 1e-4 to 4e-3" awk "BEGIN { exit !($e > 1e-4 && $e < 4e-3) }"
 }
 resting_shells() {
     resting_shell weight "the weight of the bed" 0
@@ -277,7 +277,7 @@ again_and_in_parts_in_space() {
     logged msddFoam
     for name in stress conductivity nodeDisplacement; do
         e=$(apart_by $name ../spheres-column)
-        check "spheres of 20 um in place of 2 mm: $name differs by $e <= 1e-9" below "$e" 1e-9
+        check "spheres of 20 um instead of 2 mm: $name differs by $e <= 1e-9" below "$e" 1e-9
     done
     check "and they moved" grep -q 'Equilibrium: 4 of 4 steps solved' log
 }

@@ -6,7 +6,7 @@ file_of() { # path, class: begins a file of OpenFOAM with its head and appends w
     mkdir -p "$(dirname "$1")"
     { echo "FoamFile { version 2.0; format ascii; class $2; object ${1##*/}; }"; cat; } > "$1"
 }
-layer_mesh() { # folder below system, x0, x1 [m], cells, patch that is coupled, region and patch beside it, option of blockMesh
+layer_mesh() { # folder below system, x0, x1 [m], cells, patch that is coupled, region and patch next to it, option of blockMesh
     local left='' right='' link="type mappedWall; sampleMode nearestPatchFace; sampleRegion $6; samplePatch $7;"
     [ "$5" = left ] && left=$link || right=$link
     file_of "system/$1/blockMeshDict" dictionary <<-END
@@ -89,25 +89,25 @@ orders() {
     local coarse fine
     coarse=$(layers secondOrder 8 100)
     fine=$(layers secondOrder 16 100)
-    check "solid beside the bed: error $coarse with 8 cells in each layer, $fine <= 1e-3 with 16" below "$fine" 1e-3
-    check "solid beside the bed: order in space at least 1.8" awk "BEGIN { exit !($coarse >= 2^1.8*$fine) }"
+    check "solid next to the bed: error $coarse with 8 cells in each layer, $fine <= 1e-3 with 16" below "$fine" 1e-3
+    check "solid next to the bed: order in space at least 1.8" awk "BEGIN { exit !($coarse >= 2^1.8*$fine) }"
     coarse=$(layers paper 128 10)
     fine=$(layers paper 128 20)
-    check "solid beside the bed, scheme of the paper: error $coarse with 10 steps, $fine <= 0.02 with 20" below "$fine" 0.02
-    check "solid beside the bed, scheme of the paper: order in time at least 0.9" awk "BEGIN { exit !($coarse >= 2^0.9*$fine) }"
+    check "solid next to the bed, scheme of the paper: error $coarse with 10 steps, $fine <= 0.02 with 20" below "$fine" 0.02
+    check "solid next to the bed, scheme of the paper: order in time at least 0.9" awk "BEGIN { exit !($coarse >= 2^0.9*$fine) }"
     coarse=$(layers secondOrder 128 2)
     fine=$(layers secondOrder 128 4)
-    check "solid beside the bed, second order: error $coarse with 2 steps, $fine <= 0.01 with 4" below "$fine" 0.01
-    check "solid beside the bed, second order: order in time at least 1.7" awk "BEGIN { exit !($coarse >= 2^1.7*$fine) }"
+    check "solid next to the bed, second order: error $coarse with 2 steps, $fine <= 0.01 with 4" below "$fine" 0.01
+    check "solid next to the bed, second order: order in time at least 1.7" awk "BEGIN { exit !($coarse >= 2^1.7*$fine) }"
 }
 heat_over_all() {
     local e
     for name in paper-128-20 secondOrder-128-4; do
         cd "$work/neighbour-$name"
         e=$(heat_closes)
-        check "solid beside the bed, $name: heat that came in from outside against heat in the solid and the bed $e <= 1e-9" below "$e" 1e-9
+        check "solid next to the bed, $name: heat that came in from outside against heat in the solid and the bed $e <= 1e-9" below "$e" 1e-9
         e=$(sed -n 's/.*"relative_difference": \([^}]*\)}.*/\1/p' postProcessing/msddFoam/summary.json)
-        check "solid beside the bed, $name: heat of the bed $e <= 1e-9" below "$e" 1e-9
+        check "solid next to the bed, $name: heat of the bed $e <= 1e-9" below "$e" 1e-9
     done
 }
 unequal_faces() { # 24 faces of the bed meet 5 of the plate, hot below: nearestPatchFace loses heat, which must be said
@@ -154,7 +154,7 @@ on_processes() { # the coupled patches are cut along y
     for name in T plate/T; do
         e=$(paste -d ' ' <(field 20/$name) <(field "$work/neighbour-processes/20/$name") | awk '{ e = $1 - $2; if (e < 0) e = -e; if (!(e <= w)) w = e }
             END { print (NR > 3 ? w : "nan") }')
-        check "solid beside the bed on three processes: $name differs by $e <= 1e-6 K" below "$e" 1e-6
+        check "solid next to the bed on three processes: $name differs by $e <= 1e-6 K" below "$e" 1e-6
     done
 }
 restarted() { # a run that ends in the middle and goes on has the same bytes as one that does not
@@ -169,7 +169,7 @@ restarted() { # a run that ends in the middle and goes on has the same bytes as 
     controls 'endTime 20;'
     logged msddFoam
     for name in T plate/T; do
-        check "solid beside the bed, restarted in the middle: $name has the same bytes" cmp "20/$name" "$work/neighbour-whole/20/$name"
+        check "solid next to the bed, restarted in the middle: $name has the same bytes" cmp "20/$name" "$work/neighbour-whole/20/$name"
     done
 }
 killed_with_a_solid() { # killed (-9) three times while it writes every step; a damaged file of the solid
@@ -187,16 +187,16 @@ killed_with_a_solid() { # killed (-9) three times while it writes every step; a 
         kill -9 $solver 2> /dev/null || true
         wait $solver 2> /dev/null || true
     done
-    check "solid beside the bed, killed three times: $(grep -c '^Create time' log) runs so far, stopped before the end" test ! -e 20
+    check "solid next to the bed, killed three times: $(grep -c '^Create time' log) runs so far, stopped before the end" test ! -e 20
     logged msddFoam
-    check "solid beside the bed, killed three times: the last time has the same bytes" diff -rq -x functionObjects 20 "$work/neighbour-unkilled/20"
+    check "solid next to the bed, killed three times: the last time has the same bytes" diff -rq -x functionObjects 20 "$work/neighbour-unkilled/20"
     truncate -s -40 20/plate/T
     logged msddFoam
-    check "solid beside the bed: a time whose file of the solid is damaged is skipped" grep -q 'Time 20 is skipped: without its end: plate/T' log
+    check "solid next to the bed: a time whose file of the solid is damaged is skipped" grep -q 'Time 20 is skipped: without its end: plate/T' log
     check "and computed again to the same bytes" diff -rq -x functionObjects 20 "$work/neighbour-unkilled/20"
     logged transformPoints -region plate -scale '(1 1.001 1)'
     controls 'endTime 21;'
-    check "solid beside the bed: another mesh of the solid is refused" refused 'constant/plate/polyMesh is not that on which time 20'
+    check "solid next to the bed: another mesh of the solid is refused" refused 'constant/plate/polyMesh is not that on which time 20'
 }
 by_temperature() { # folder, scheme, steps of 200 s in all: conductivity and heat capacity of the plate follow its temperature
     layers_case "$1" 24 "endTime ${4:-200}; deltaT $(awk "BEGIN { print ${4:-200}/$3 }"); writeInterval $3;" "timeScheme $2;"
@@ -242,9 +242,9 @@ slanted() { # cells are parallelograms, K has an xy component, and T changes alo
     sed -i 's/".*" { type zeroGradient; }/bottom { type fixedValue; value uniform 400; } &/' 0/T
     logged msddFoam
     e=$(heat_closes)
-    check "solid beside the bed, slanted cells and K_xy: heat closes to $e <= 1e-9" below "$e" 1e-9
+    check "solid next to the bed, slanted cells and K_xy: heat closes to $e <= 1e-9" below "$e" 1e-9
     e=$(sed -n 's/.*"relative_difference": \([^}]*\)}.*/\1/p' postProcessing/msddFoam/summary.json)
-    check "solid beside the bed, slanted cells and K_xy: heat of the bed closes to $e <= 1e-9" below "$e" 1e-9
+    check "solid next to the bed, slanted cells and K_xy: heat of the bed closes to $e <= 1e-9" below "$e" 1e-9
 }
 within_a_shell() { # grains that move, elastic here: the shell stands where its temperature and the pressure put it
     local e
@@ -261,15 +261,15 @@ within_a_shell() { # grains that move, elastic here: the shell stands where its 
         /^    right/ { inside = 1 } inside && /^    }/ { inside = 0 }
         inside && $1 == "value" { sub(/.*\(/, ""); T = $1 + 0 }
         END { wall = u + (u - before)/2; place = 2e-6*0.5*(T - 300) + p*0.25/(1e8*0.01); e = wall/place - 1; print (T > 300 && p != 0 ? (e < 0 ? -e : e) : "nan") }' 100/T)
-    check "shell beside a bed with a solid: it is where its temperature and the pressure put it, to $e <= 0.01" below "$e" 0.01
+    check "shell next to a bed with a solid: it is where its temperature and the pressure put it, to $e <= 0.01" below "$e" 0.01
     e=$(heat_closes)
-    check "shell beside a bed with a solid: heat closes to $e <= 1e-9" below "$e" 1e-9
+    check "shell next to a bed with a solid: heat closes to $e <= 1e-9" below "$e" 1e-9
 }
 neighbours_that_cannot_be() {
     layers_case neighbour-fluid 4 'endTime 1; deltaT 1; writeInterval 1;' ''
     begin_with_mode 4
     file_of constant/regionProperties dictionary <<< 'regions (solid (plate) fluid (water));'
-    check "refused: a fluid beside msddFoam" refused "the regions water of type 'fluid'"
+    check "refused: a fluid next to msddFoam" refused "the regions water of type 'fluid'"
     file_of constant/regionProperties dictionary <<< 'regions (solid (plate));'
     sed -i 's/constIso/constAnIso/; s/kappa 5/kappa (5 5 1)/' constant/plate/thermophysicalProperties
     check "refused: settings for a bed with a solid" test "$(msdd case solve . 2>&1 | grep -c 'the bed has solids next to it')" = 1

@@ -5,7 +5,7 @@
 . "$here/region_cases"
 walls='left { type fixedValue; value uniform 100; } right { type fixedValue; value uniform 0; } bottom { type fixedValue; value uniform 70; } top { type zeroGradient; }'
 
-alone() { # more entries of granularProperties: the case small as a region, beside msddFoam in the folder small-<name>
+alone() { # more entries of granularProperties: the case small as a region, next to msddFoam in the folder small-<name>
     local name=$1
     changed "small-$name"
     grains "${2:-}"
@@ -331,7 +331,7 @@ silo() { # grains that move in a vessel: heat of both, and the vessel where the 
     e=$(paste -d ' ' <(field 2000000/stress) <(field 2000000/D) <(field 2000000/T) | awk 'NR == 39 || NR == 40 { p[NR] = -$1; u[NR] = $7; T[NR] = $10 }
         function wall(a) { return a[40] + (a[40] - a[39])/2 }
         END { e = wall(u)/((wall(p) - 5e5)*1.005^2/(2e11*0.01) + 1.2e-5*1.005*(wall(T) - 300)) - 1; print (NR > 40 ? (e < 0 ? -e : e) : "nan") }')
-    check "silo: the vessel gives way as pressure and temperature demand, to $e <= 0.02" below "$e" 0.02
+    check "silo: the vessel yields as pressure and temperature demand, to $e <= 0.02" below "$e" 0.02
 }
 blanket_and_vessel() {
     local hot cold

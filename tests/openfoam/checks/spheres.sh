@@ -57,7 +57,7 @@ column() { # folder: a copy of the case column
     sed -i "s#../../common#$checkout/cases/common#" system/*
     logged blockMesh
 }
-pressed_bed() { # the case column beside 20 000 spheres
+pressed_bed() { # the case column compared with 20 000 spheres
     local same
     column column
     logged msddFoam
@@ -73,7 +73,7 @@ pressed_bed() { # the case column beside 20 000 spheres
     check "refused: no component" fails "$checkout/cases/common/compare-dem" lid zz xx yy z
 }
 fails() { ! "$@" > /dev/null 2>&1; }
-heated_store() { # the case store beside 20 000 spheres
+heated_store() { # the case store compared with 20 000 spheres
     rm -rf "${work:?}/store"
     cp -r "$checkout/cases/store" "$work/store"
     cd "$work/store"
@@ -94,7 +94,7 @@ what_changes_it() {
     steel spheres-thin
     sed -i 's/gas  *air;/& gasPressure 10;/' constant/granularProperties
     logged msddFoam
-    check "a gas that is too thin is told from other reasons" \
+    check "a gas that is too thin is distinguished from other reasons" \
         grep -q '^  *- Range.* By the gas or its temperature 100 %\. ' log
     check "and so it is for programs" [ "$(sed -n 's/^answers_outside_by_//p' log | tr '\n' ' ')" = \
         "gas: $(sed -n 's/^answers_outside: //p' log) " ]

@@ -73,7 +73,7 @@ last_step() { # the sum of these steps is below the end by a rounding error, whi
     check "adaptive: ends where the sum of its steps is rounded" test -e 0.11/T -a "$(grep -c '^Time = 0.11$' log)" = 1
 }
 
-# OpenFOAM knows no end of such a run, and the least step is not a share of it
+# OpenFOAM sets no end of such a run, and the least step is not a share of it
 stopped_now() {
     adaptive stopped 0.1
     controls 'stopAt nextWrite; writeInterval 0.1; minDeltaT 1e-9;'

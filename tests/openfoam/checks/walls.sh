@@ -112,7 +112,7 @@ round_vessel() { # mesh, its arguments: a smooth round bed that is heated inside
     turn=$(paste -d ' ' <(field 0/C) <(field 1e+06/D) | awk '{ t = ($5*$1 - $4*$2)/($1*$1 + $2*$2); s += t; n++ } END { s /= n; print (n ? (s < 0 ? -s : s) : "nan") }')
     p=$(field 1e+06/pressure | awk 'NR == 1 || $1 < least { least = $1 } END { print least }')
     check "smooth round bed, $*: it turns by $turn <= 1e-3" below "$turn" 1e-3
-    check "and all of it bears load, at least $p Pa" is_within "$p" 1e4 1e9
+    check "and all of it carries load, at least $p Pa" is_within "$p" 1e4 1e9
 }
 in_three_parts() { # the ball of tetrahedra
     rm -rf "$work/walls-parts"
@@ -214,7 +214,7 @@ left_bed() { # folder, hexahedra along z: a closed bed under its weight is coole
     sed -i 's/heatCapacity 800/heatCapacity 1e-6/' constant/granularProperties
     sed -i 's/^endTime 1; deltaT 1; writeInterval 1;/endTime 16; deltaT 1; writeInterval 8;/' system/controlDict
 }
-left_lid() { # the lid bears nothing while it is cold, the floor the weight, and no cell is without load
+left_lid() { # the lid carries nothing while it is cold, the floor the weight, and no cell is without load
     local gap finer least floor
     left_bed walls-left 4
     logged msddFoam

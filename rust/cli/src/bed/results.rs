@@ -81,7 +81,7 @@ impl Course {
 }
 
 /// Prepares the bed and heats it in both ways; and each bed with one value changed of `vary`. `save` receives the results, first without
-/// and then after each of these. What fails in a bed is told through `failed`.
+/// and then after each of these. A failure in a bed is reported through `failed`.
 pub fn compute(
     case: BedCase,
     vary: Vec<(Vary, BedCase)>,

@@ -108,7 +108,7 @@ impl Panel {
             format!("{} {low} to {high}", self.names[k].replace("initial ", ""))
         });
         let points = distinct(&self.points, ranges);
-        let of = |name: &str| points.iter().filter(move |(_, sign)| *sign == name).map(move |(point, _)| (point[0], point[1]));
+        let of = |name: &'static str| points.iter().filter(move |(_, sign)| *sign == name).map(move |(point, _)| (point[0], point[1]));
         let coloured = COLOURS.map(|(name, colour)| (name, series(of(name).collect(), Style::dots(colour))));
         let mut list: Vec<_> = coloured.into_iter().filter(|(_, one)| !one.points.is_empty()).collect();
         if self.hull {

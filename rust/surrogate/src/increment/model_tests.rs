@@ -351,11 +351,11 @@ fn what_is_known_of_the_start_is_kept_and_the_rest_is_the_mean() {
     let [xx, yy, _] = model.evaluate(&mean, 0.0).stress.map(|column| column[0]);
     let law = 0.1 * 0.08 / 0.12; // of the synthetic packings
     assert!((0.5 * (xx + yy) - law).abs() < 0.05 * law, "{xx} {yy}");
-    let uncertainty = model.uncertainty(&state).expect("the model knows its region");
+    let uncertainty = model.uncertainty(&state).expect("the model reports its region");
     assert!(uncertainty.distance.is_finite() && uncertainty.conductivity_spread >= 0.0);
     let far_known =
         InitialData { porosity: 0.5, reduced_stress: Some([0.5, 0.5, 0.0]), ..InitialData::default() };
-    let far = model.uncertainty(&model.initial_state(&far_known)).expect("the model knows its region");
+    let far = model.uncertainty(&model.initial_state(&far_known)).expect("the model reports its region");
     assert!(far.beyond_hull > 1.0 && far.distance > 3.0, "{far:?}");
 }
 

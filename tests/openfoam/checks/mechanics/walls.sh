@@ -28,7 +28,7 @@ prescribed_walls() {
     e=$(error_of_uniaxial "$d" "$pressure" "$2" 100)
     check "pressure on a wall: stress and displacement against the model $e <= 1e-6" below "$e" 1e-6
     e=$(awk "BEGIN { e = ($1 - $pressure)/100; print e < 0 ? -e : e }")
-    check "pressure on a wall: the model bears it at this displacement, to $e <= 1e-6" below "$e" 1e-6
+    check "pressure on a wall: the model carries it at this displacement, to $e <= 1e-6" below "$e" 1e-6
     uniaxial pushed 'type displacement; displacement constant (-0.005 0 0);'
     set -- $(uniaxial_strain -0.005 | strained before)
     e=$(error_of_uniaxial -0.005 "$1" "$2" "$(awk "BEGIN { print $1 - $sxx }")")
@@ -55,14 +55,14 @@ pressed_into_walls() {
     check "discs press into walls: stress is uniform to $e <= 1e-7" below "$e" 1e-7
 }
 
-shell_beside_grains() { # a shell that its temperature moves by 5 mm, and that gives way by 1e-5 m/Pa
+shell_beside_grains() { # a shell that its temperature moves by 5 mm, with a compliance of 1e-5 m/Pa
     local d e sxx
     sxx=$(echo 0 0 0 0 0 | strained before | awk '{ print $1 }')
     uniaxial shell 'type shell; youngModulus 2e5; thickness 0.5; radius 1; thermalExpansion 5e-4; temperature 40;'
     d=$(field 0.05/nodeDisplacement | awk 'NR == 13 { print $1 }')
     set -- $(uniaxial_strain "$d" | strained before)
     e=$(awk "BEGIN { e = ($1 - $sxx)/(1e5*($d - 0.005)) - 1; print e < 0 ? -e : e }")
-    check "shell beside grains: the pressure that the model bears at its displacement of $d is its own, to $e <= 1e-6" below "$e" 1e-6
+    check "shell next to grains: the pressure that the model carries at its displacement of $d is its own, to $e <= 1e-6" below "$e" 1e-6
 }
 
 symmetric_quarter() { # all walls at 100 K: a quarter with symmetry planes must give the result of the whole

@@ -11,7 +11,7 @@ use msdd_draw::text::significant;
 use msdd_draw::{Line, Marker, Series, Style, from_data, plot_named, series};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// A figure with the name by which `--figures` knows it.
+/// A figure with the name by which `--figures` selects it.
 pub type Figure = (&'static str, String);
 
 /// At most so many curves are drawn in a figure, and so many places along an axis.
