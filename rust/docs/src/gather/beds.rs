@@ -115,7 +115,8 @@ fn plates(section: &mut Section, beds: &Json) -> Result<(), DocsError> {
     row.extend(sums.map(|[sum, count]| decimals(sum / count, 2)));
     rows.push(row);
     let columns = ["bed", "packings", "slack on loading [d]", "recovered on unloading [d]"];
-    let meaning = "slack of the bed at each of two smooth plates, in diameters, and how much one packing differs";
+    let meaning =
+        "slack of the bed at each of two smooth plates, in diameters, and how much one packing differs";
     section.add_table("plates-give", meaning, "msdd bed slack", &columns, rows);
     Ok(())
 }
