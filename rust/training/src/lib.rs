@@ -16,7 +16,7 @@ use msdd_surrogate::spheres::tracks::Track;
 use msdd_surrogate::spheres::training;
 use msdd_surrogate::surrogate::Surrogate;
 use msdd_surrogate::training_data::TrainingData;
-use msdd_surrogate::{DatabaseProvenance, SurrogateError, TrainingOptions, models};
+use msdd_surrogate::{DatabaseProvenance, TrainingOptions, models};
 pub use rows::training_data;
 use serde::Deserialize;
 use std::collections::BTreeMap;
