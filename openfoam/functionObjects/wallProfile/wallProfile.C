@@ -16,6 +16,7 @@ License
 
 #include "wallProfile.H"
 #include "regionHeat.H"
+#include "resistingWall.H"
 #include "solidThermo.H"
 #include "unitConversion.H"
 #include "uniformDimensionedFields.H"
@@ -98,8 +99,8 @@ static const keyTable wallProfileColumns
         },
         {
             "wall_temperature",
-            "temperature of the surface of the wall: that of the bed where the"
-            " mesh ends, and the heat flux times the resistance of the wall", "K"
+            "temperature of the surface of the wall: as given, else that of the"
+            " bed where the mesh ends plus the heat flux times the resistance", "K"
         }
     }
 );
@@ -324,7 +325,10 @@ void Foam::functionObjects::wallProfile::addWall
     const fvPatch& patch = mesh_.boundary()[patchi];
     const vectorField n(patch.nf()), onWall(force(patchi));
     const tmp<volScalarField> tT(present<scalar>("T"));
-    const scalarField& T = tT().boundaryField()[patchi];
+    const fvPatchScalarField& T = tT().boundaryField()[patchi];
+    scalar given = 0;
+    const auto* wall = dynamic_cast<const resistingWall*>(&T);
+    const bool isGiven = wall && patch.size() && wall->surface(given);
     const auto* R = mesh_.findObject<volScalarField>("wallResistance");
     forAll(n, facei)
     {
@@ -342,7 +346,9 @@ void Foam::functionObjects::wallProfile::addWall
         sums[wallSums::shear] += A*mag(shear);
         sums[wallSums::heat] += A*heatFlux;
         sums[wallSums::temperature] +=
-            A*(T[facei] + (resistance < GREAT ? heatFlux*resistance : 0));
+            isGiven
+          ? A*given
+          : A*(T[facei] + (resistance < GREAT ? heatFlux*resistance : 0));
     }
 }
 

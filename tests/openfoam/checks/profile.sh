@@ -42,7 +42,7 @@ heat_of_walls() { # grains that move, adaptive steps of two stages, walls with t
     e=$(relative "$(at_end bottom '$5*$9')" "$(awk 'BEGIN { print 50*0.06*0.04 }')")
     check "a given flux is that of the profile within $e <= 1e-9" below "$e" 1e-9
     e=$(relative "$(at_end left '$5*$10')" "$(awk 'BEGIN { print 340*0.04*0.08 }')")
-    check "wall_temperature of a wall of 340 K: within $e <= 1e-5" below "$e" 1e-5
+    check "wall_temperature of a wall of 340 K: within $e <= 1e-12" below "$e" 1e-12
     # The same on three processes, up to the residual of the mechanics
     cp -r . "$work/profile-parts.new" && rm -rf "$work/profile-parts" && mv "$work/profile-parts.new" "$work/profile-parts"
     local alone
