@@ -14,7 +14,7 @@ pub struct StableStep {
     pub thermal: [f64; 2],
 }
 
-/// What `msdd bench limits` prints.
+/// What `bench limits`, an example of `rust/cli`, prints.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Limits {
     pub packings: u64,
@@ -79,7 +79,7 @@ pub const MODELS: [&str; 2] = ["rust/surrogate/models/increment.json", "rust/sur
 
 pub fn stability(quick: bool) -> Job {
     let porosities = if quick { "0.09,0.12" } else { "0.06,0.07,0.08,0.09,0.1,0.12,0.14,0.17" };
-    plan::tool(&format!("bench stability --porosity {porosities}"), &["rust/cli/src/bench"], None, 300)
+    plan::tool(&format!("bench stability --porosity {porosities}"), &["rust/cli/examples/bench"], None, 300)
 }
 
 pub fn limits(quick: bool) -> Job {
@@ -87,7 +87,12 @@ pub fn limits(quick: bool) -> Job {
     let packings = if quick { 1 } else { 8 };
     let run =
         format!("bench limits --packings {packings} --model {first} --model {second} --out WORK/limits.json");
-    plan::tool(&run, &["rust/cli/src/bench", "rust/surrogate/src", first, second], Some("limits.json"), 600)
+    plan::tool(
+        &run,
+        &["rust/cli/examples/bench", "rust/surrogate/src", first, second],
+        Some("limits.json"),
+        600,
+    )
 }
 
 /// Reads lines such as "porosity 0.06  1.011e-3  1.051e-3  1.04  4.973e-4  4.934e-4  0.99".

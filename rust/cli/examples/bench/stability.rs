@@ -1,7 +1,7 @@
-//! `msdd bench stability`: the largest stable time steps, predicted and measured.
+//! `bench stability`: the largest stable time steps, predicted and measured.
 
-use crate::error::CliError;
 use clap::Args;
+use msdd_cli::shared::{CliError, read_state};
 use msdd_dem::{Simulation, Thermal, WallHeat};
 use msdd_rve::{Compression, Material, PackingSpec, pack};
 use std::path::PathBuf;
@@ -35,8 +35,8 @@ const FACTORS: [f64; 2] = [0.5, 2.0];
 const BISECTIONS: u32 = 6;
 
 pub fn run(arguments: &Arguments) -> Result<(), CliError> {
-    outln!("largest stable step [s]       mechanical                       thermal");
-    outln!("                      predicted  measured  ratio     predicted  measured  ratio");
+    println!("largest stable step [s]       mechanical                       thermal");
+    println!("                      predicted  measured  ratio     predicted  measured  ratio");
     for &porosity in &arguments.porosity {
         let (discs, compression) = (500, Compression::Isotropic);
         let spec = PackingSpec { discs, seed: 1, porosity, compression, ..PackingSpec::default() };
@@ -45,7 +45,7 @@ pub fn run(arguments: &Arguments) -> Result<(), CliError> {
     }
     for path in &arguments.state {
         let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-        let state = crate::rve::read_state(path)?;
+        let state = read_state(path)?;
         line(&name, &state);
         if arguments.shock {
             line(&format!("{name}, shock"), &shocked(state)?);
@@ -72,7 +72,7 @@ fn line(name: &str, simulation: &Simulation) {
     (0..200).for_each(|_| warm.conduct(1e-9)); // lets the power iteration converge
     let thermal = warm.heat().map_or(f64::NAN, |heat| heat.stable_step());
     let thermal_ratio = largest_factor(|factor| heat_is_stable(&warm, factor * thermal));
-    outln!(
+    println!(
         "{name:<20} {mechanical:>10.3e} {:>10.3e} {mechanical_ratio:>6.2} {thermal:>13.3e} {:>9.3e} {thermal_ratio:>6.2}",
         mechanical * mechanical_ratio,
         thermal * thermal_ratio
