@@ -5,8 +5,8 @@ use crate::plan;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
-/// Largest stable time steps of 500 discs \[s\].
-#[derive(Clone, Debug, PartialEq, Serialize)]
+/// Largest stable time steps of 500 discs, as `bench stability` prints them \[s\].
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct StableStep {
     pub porosity: f64,
     /// Predicted by the bound, measured.
@@ -93,31 +93,4 @@ pub fn limits(quick: bool) -> Job {
         Some("limits.json"),
         600,
     )
-}
-
-/// Reads lines such as "porosity 0.06  1.011e-3  1.051e-3  1.04  4.973e-4  4.934e-4  0.99".
-pub fn stable_steps(printed: &str) -> Vec<StableStep> {
-    let line = |line: &str| -> Option<StableStep> {
-        let numbers: Vec<f64> =
-            line.strip_prefix("porosity")?.split_whitespace().map_while(|w| w.parse().ok()).collect();
-        let &[porosity, mp, mm, _, tp, tm, _] = numbers.as_slice() else { return None };
-        Some(StableStep { porosity, mechanical: [mp, mm], thermal: [tp, tm] })
-    };
-    printed.lines().filter_map(line).collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn stable_steps_are_read() {
-        let steps = stable_steps(
-            "largest ...\nporosity 0.06          1.011e-3   1.051e-3   1.04      4.973e-4  4.934e-4   0.99\n",
-        );
-        assert_eq!(
-            steps,
-            [StableStep { porosity: 0.06, mechanical: [1.011e-3, 1.051e-3], thermal: [4.973e-4, 4.934e-4] }]
-        );
-    }
 }
