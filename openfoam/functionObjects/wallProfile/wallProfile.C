@@ -80,12 +80,11 @@ static const keyTable wallProfileColumns
         },
         {"area", "area of the part", "m2"},
         {
-            "normal", "n.stress.n in the cells at the wall, with the normal n;"
-            " compression positive", "Pa"
+            "normal", "force of the bed across the wall over the area, compression"
+            " positive", "Pa"
         },
         {
-            "shear", "magnitude of the stress along the wall in the same cells",
-            "Pa"
+            "shear", "magnitude of the force along the wall over the area", "Pa"
         },
         {
             "shear_along",
@@ -104,6 +103,8 @@ static const keyTable wallProfileColumns
         }
     }
 );
+
+static const word wallForce("wallForce");
 
 //- Extent along the axis, over the size of the mesh, that is rounding
 static const scalar level = 1e-6;
@@ -147,7 +148,7 @@ Foam::functionObjects::wallProfile::wallProfile
             << exit(FatalIOError);
     }
     findBins();
-    makeFlux();
+    makeFields();
     begin(dict);
 }
 
@@ -219,30 +220,61 @@ void Foam::functionObjects::wallProfile::findBins()
 }
 
 
-void Foam::functionObjects::wallProfile::makeFlux()
+template<class Type>
+void Foam::functionObjects::wallProfile::make
+(
+    const word& name,
+    const dimensionSet& unit
+) const
 {
-    if
-    (
-        mesh_.foundObject<volScalarField>(runRecord::wallFlux)
-     || !mesh_.foundObject<runRecord>("msddFoam")
-     || mesh_.foundObject<solidThermo>(basicThermo::dictName)
-    )
+    typedef GeometricField<Type, fvPatchField, volMesh> fieldType;
+
+    if (!mesh_.foundObject<fieldType>(name))
+    {
+        mesh_.objectRegistry::store
+        (
+            new fieldType
+            (
+                IOobject
+                (
+                    name, time_.timeName(), mesh_,
+                    IOobject::READ_IF_PRESENT, IOobject::AUTO_WRITE
+                ),
+                mesh_,
+                dimensioned<Type>(unit, Zero)
+            )
+        );
+    }
+}
+
+
+void Foam::functionObjects::wallProfile::makeFields()
+{
+    if (!mesh_.foundObject<runRecord>("msddFoam"))
     {
         return;
     }
-    mesh_.objectRegistry::store
+    if (!mesh_.foundObject<solidThermo>(basicThermo::dictName))
+    {
+        make<scalar>(runRecord::wallFlux, dimPower/dimArea);
+    }
+    if (mesh_.foundObject<volScalarField>("areaRatio"))
+    {
+        make<vector>(wallForce, dimPressure);
+    }
+}
+
+
+bool Foam::functionObjects::wallProfile::exists(const word& name) const
+{
+    IOobject header
     (
-        new volScalarField
-        (
-            IOobject
-            (
-                runRecord::wallFlux, time_.timeName(), mesh_,
-                IOobject::READ_IF_PRESENT, IOobject::AUTO_WRITE
-            ),
-            mesh_,
-            dimensionedScalar(dimPower/dimArea, Zero)
-        )
+        name, time_.timeName(), mesh_,
+        IOobject::MUST_READ, IOobject::NO_WRITE, false
     );
+    return
+        mesh_.foundObject<regIOobject>(name)
+     || header.typeHeaderOk<volScalarField>(false);
 }
 
 
@@ -253,23 +285,31 @@ Foam::functionObjects::wallProfile::flux(const label patchi) const
     {
         return regionHeat::flux(mesh_, patchi);
     }
-    IOobject header
-    (
-        runRecord::wallFlux, time_.timeName(), mesh_,
-        IOobject::MUST_READ, IOobject::NO_WRITE, false
-    );
-    if
-    (
-        mesh_.foundObject<volScalarField>(header.name())
-     || header.typeHeaderOk<volScalarField>(true)
-    )
+    if (exists(runRecord::wallFlux))
     {
         return tmp<scalarField>::New
         (
-            present<scalar>(header.name())().boundaryField()[patchi]
+            present<scalar>(runRecord::wallFlux)().boundaryField()[patchi]
         );
     }
     return nullptr;
+}
+
+
+Foam::vectorField
+Foam::functionObjects::wallProfile::force(const label patchi) const
+{
+    if (exists(wallForce))
+    {
+        return present<vector>(wallForce)().boundaryField()[patchi];
+    }
+    const fvPatch& patch = mesh_.boundary()[patchi];
+    const tmp<volSymmTensorField> tstress(present<symmTensor>("stress"));
+    return
+       -(
+            patch.nf()
+          & symmTensorField(tstress().primitiveField(), patch.faceCells())
+        );
 }
 
 
@@ -282,19 +322,15 @@ void Foam::functionObjects::wallProfile::addWall
 {
     const label patchi = walls_[i];
     const fvPatch& patch = mesh_.boundary()[patchi];
-    const vectorField n(patch.nf());
-    const labelUList& cells = patch.faceCells();
-    const tmp<volSymmTensorField> tstress(present<symmTensor>("stress"));
+    const vectorField n(patch.nf()), onWall(force(patchi));
     const tmp<volScalarField> tT(present<scalar>("T"));
     const scalarField& T = tT().boundaryField()[patchi];
     const auto* R = mesh_.findObject<volScalarField>("wallResistance");
     forAll(n, facei)
     {
         const scalar A = patch.magSf()[facei];
-        // Of the bed on the wall, whose normal points outwards
-        const vector t(-(n[facei] & tstress()[cells[facei]]));
-        const scalar across = t & n[facei];
-        const vector shear(t - across*n[facei]);
+        const scalar across = onWall[facei] & n[facei];
+        const vector shear(onWall[facei] - across*n[facei]);
         const scalar heatFlux = q.valid() ? q()[facei] : scalar(0);
         const scalar resistance =
             R ? R->boundaryField()[patchi][facei] : scalar(0);

@@ -92,10 +92,44 @@ void Foam::granularMechanicsModels::equilibrium::makeFields()
     writeNodes(velocityBefore_, nodeVelocityBefore_);
     writeNodes(give_, wallGive_);
     writeFriction();
+    setWallForce();
     if (mesh_.time().writeTime() && mesh_.time().timeIndex() != written_)
     {
         written_ = mesh_.time().timeIndex();
         takeNodes();
+    }
+}
+
+
+void Foam::granularMechanicsModels::equilibrium::setWallForce()
+{
+    auto* field = mesh_.getObjectPtr<volVectorField>("wallForce");
+    if (!field)
+    {
+        return;
+    }
+    if (!law_->elastic())
+    {
+        law_->present();
+    }
+    if (!placed_)
+    {
+        invalidCell_ =
+            nodes_.findShapes(at(nodeField(u_.size(), Zero), 0), shapes_);
+        placed_ = true;
+    }
+    nodeField force(u_.size(), Zero);
+    addStress(law_->stress(), force);
+    addUnfitted(nodeField(u_.size(), Zero), force);
+    nodes_.sum(force);
+    force = volumeForce_ - force;
+    const List<vectorField> onFaces(walls_.onFaces(law_->stress(), force));
+    forAll(onFaces, patchi)
+    {
+        if (onFaces[patchi].size())
+        {
+            field->boundaryFieldRef()[patchi] == onFaces[patchi];
+        }
     }
 }
 

@@ -29,7 +29,11 @@ License
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
 Foam::wallConstraints::across
-Foam::wallConstraints::findAcross(const smoothWalls& walls) const
+Foam::wallConstraints::findAcross
+(
+    const smoothWalls& walls,
+    const bool fixed
+) const
 {
     const label dim = mesh_.dim(), size = mesh_.size();
     nodeDyads directions(mesh_);
@@ -56,7 +60,10 @@ Foam::wallConstraints::findAcross(const smoothWalls& walls) const
         {
             const scalar axis[3] = {scalar(k == 0), scalar(k == 1), scalar(k == 2)};
             const bool onAxis = k == r && mesh_.points()[2*node + r] < tiny;
-            directions.add(node, axis, (fixing_[node] > 0) + onAxis);
+            directions.add
+            (
+                node, axis, (fixed && fixing_[node] > 0) + onAxis
+            );
         }
     }
 

@@ -15,6 +15,7 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "wallConditions.H"
+#include "nodeDyads.H"
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
@@ -120,6 +121,148 @@ void Foam::wallConstraints::addPressure
             }
         }
     }
+}
+
+
+Foam::List<Foam::vectorField> Foam::wallConditions::onFaces
+(
+    const List<scalarField>& stress,
+    const scalarField& force
+) const
+{
+    const label dim = mesh_.dim();
+    const boolList carries
+    (
+        chosen
+        (
+            [](const wall& w)
+            {
+                return w.type != kind::none && w.type != kind::symmetry;
+            }
+        )
+    );
+    const smoothWalls walls(mesh_, carries);
+    const across held(findAcross(walls, false));
+    scalarField area(mesh_.size(), Zero);
+    for (label i = 0; i < walls.size(); ++i)
+    {
+        area[walls.node(i)] += walls.area(i);
+    }
+    labelList level(mesh_.size(), Zero);
+    forAll(held.nodes, i)
+    {
+        level[held.nodes[i]] = held.directions[i];
+    }
+
+    // First nodes of one wall, then edges, then corners: there a face has the
+    // pressure of its cell and the mean shear of its other nodes, and walls take
+    // the rest along their normals; what these do not span acts on all alike
+    List<vectorField> result(walls_.size()), sum(walls_.size());
+    List<scalarField> count(walls_.size());
+    forAll(walls_, patchi)
+    {
+        const label faces = mesh_.wall(patchi).size();
+        result[patchi].resize(faces, Zero);
+        sum[patchi].resize(faces, Zero);
+        count[patchi].resize(faces, Zero);
+    }
+    for (label now = 1; now <= dim; ++now)
+    {
+        const List<vectorField> sumBefore(sum);
+        const List<scalarField> countBefore(count);
+        const auto each = [&](auto f)
+        {
+            forAll(walls_, patchi)
+            {
+                walls.each(patchi, [&](label face, label i, scalar share)
+                {
+                    if (level[walls.node(i)] == now)
+                    {
+                        const scalar* n = walls.normal(i);
+                        const label celli = mesh_.wall(patchi).cells[face];
+                        scalar s[6];
+                        for (label k = 0; k < 3*(dim - 1); ++k)
+                        {
+                            s[k] = stress[k][celli];
+                        }
+                        vector t
+                        (
+                            sumBefore[patchi][face]
+                           /max(countBefore[patchi][face], scalar(1))
+                        );
+                        for (label k = 0; k < dim; ++k)
+                        {
+                            t[k] += pressureAcross(n, s)*n[k];
+                        }
+                        f(patchi, face, i, share*walls.area(i), t);
+                    }
+                });
+            }
+        };
+        scalarField taken(force.size(), Zero), along(taken);
+        each([&](label, label, label i, scalar part, const vector& t)
+        {
+            for (label k = 0; k < dim; ++k)
+            {
+                taken[dim*walls.node(i) + k] += part*t[k];
+            }
+        });
+        mesh_.sum(taken);
+        scalarField rest(force - taken);
+        forAll(held.nodes, i)
+        {
+            const label node = held.nodes[i];
+            for (label k = 0; k < held.directions[i]; ++k)
+            {
+                const scalar* e = held.basis.cdata() + dim*dim*i + dim*k;
+                const scalar part = component(rest, node, e);
+                for (label j = 0; j < dim; ++j)
+                {
+                    along[dim*node + j] += part*e[j]/held.squares[dim*i + k];
+                    rest[dim*node + j] -= part*e[j];
+                }
+            }
+        }
+        each([&](label patchi, label face, label i, scalar part, const vector& t)
+        {
+            const label node = walls.node(i);
+            const scalar* n = walls.normal(i);
+            const scalar across = component(along, node, n)/walls.area(i);
+            vector all(t), normal(Zero);
+            for (label k = 0; k < dim; ++k)
+            {
+                normal[k] = n[k];
+                all[k] += across*n[k] + rest[dim*node + k]/area[node];
+            }
+            result[patchi][face] += part*all;
+            sum[patchi][face] += all - (all & normal)*normal;
+            count[patchi][face] += 1;
+        });
+    }
+
+    scalarField weights;
+    forAll(walls_, patchi)
+    {
+        const elementMesh::wallFaces& faces = mesh_.wall(patchi);
+        for (label i = 0; carries[patchi] && i < faces.size(); ++i)
+        {
+            const label start = faces.start[i];
+            const label size = faces.start[i + 1] - start;
+            weights.resize(max(weights.size(), 3*size));
+            mesh_.faceWeights
+            (
+                mesh_.points(), faces.nodes.cdata() + start, size,
+                weights.data()
+            );
+            vector whole(Zero);
+            for (label a = 0; a < size; ++a)
+            {
+                whole += mesh_.vectorAt(weights, a);
+            }
+            result[patchi][i] /= mag(whole);
+        }
+    }
+    return result;
 }
 
 

@@ -17,7 +17,6 @@
 
 use crate::CaseError;
 use crate::grains::{GRAIN_EXPANSIONS, GRAIN_VALUES, Grains};
-use crate::spheres::material::{CRUSH_LOADS, HARDNESSES, POISSON_RATIOS};
 use msdd_beds::property::Property;
 use msdd_beds::units::{self, Given, GivenTable, Kind};
 use msdd_rve::message;
@@ -51,6 +50,11 @@ struct Key {
     kind: &'static Kind,
     range: [f64; 2],
 }
+
+/// Ranges of Poisson's ratio, hardness \[Pa\] and the force at which a sphere breaks \[N\].
+pub const POISSON_RATIOS: [f64; 2] = [-0.99, 0.5];
+pub const HARDNESSES: [f64; 2] = [1.0, 1e15];
+pub const CRUSH_LOADS: [f64; 2] = [1e-12, 1e9];
 
 macro_rules! keys {
     ($($constant:ident = $name:literal: $kind:ident, $range:expr;)*) => {
@@ -337,8 +341,16 @@ mod tests {
                 "[\"400 C\", -1.4]",
                 "own.toml: thermal_conductivity = -1.4, allowed: 1e-12 to 1e15",
             ),
-            ("density", "densty", "unknown field `densty`, allowed: the keys about, source (texts), temperature"),
-            ("density", "densty", ", poisson_ratio (-0.99 to 0.5), roughness (0 to a hundredth of the radius, m), hardness (1 to 1e15 Pa), "),
+            (
+                "density",
+                "densty",
+                "unknown field `densty`, allowed: the keys about, source (texts), temperature",
+            ),
+            (
+                "density",
+                "densty",
+                ", poisson_ratio (-0.99 to 0.5), roughness (0 to a hundredth of the radius, m), hardness (1 to 1e15 Pa), ",
+            ),
             ("2.4 g/cm3", "-2.4 g/cm3", "own.toml: density = -2400, allowed: 1e-12 to 1e15 kg/m3"),
             ("0.22", "0.6", "own.toml: poisson_ratio = 0.6, allowed: -0.99 to 0.5"),
         ] {

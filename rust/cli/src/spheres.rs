@@ -2,6 +2,7 @@
 
 use crate::error::CliError;
 use msdd_files::{read_text, write};
+use msdd_surrogate::models::{self, BUILTIN};
 use msdd_surrogate::spheres::errors::Errors;
 use msdd_surrogate::spheres::model::SphereModel;
 use msdd_surrogate::spheres::score::{PathErrors, score};
@@ -28,7 +29,17 @@ pub fn print_training(model: &SphereModel, tracks: &[Track]) -> Result<(), CliEr
 
 /// Whether a file is a model of spheres.
 pub fn is_model(file: &Path) -> Result<bool, CliError> {
-    Ok(SphereModel::has_sphere_schema(&read_text(file)?))
+    Ok(SphereModel::has_sphere_schema(&model_text(file)?))
+}
+
+/// Text of a model file, or of a shipped model: `builtin`, `builtin:…`.
+pub fn model_text(file: &Path) -> Result<String, CliError> {
+    let failed = |source| CliError::Model { file: file.into(), source };
+    match file.to_str().filter(|name| name.split(':').next() == Some(BUILTIN)) {
+        Some("builtin:spheres") => Ok(SphereModel::builtin().map_err(failed)?.to_json()),
+        Some(name) => Ok(models::builtin(name).map_err(failed)?.to_json()),
+        None => Ok(read_text(file)?),
+    }
 }
 
 pub fn score_models(models: &[PathBuf], database: &[PathBuf], json: Option<&Path>) -> Result<(), CliError> {
@@ -36,7 +47,7 @@ pub fn score_models(models: &[PathBuf], database: &[PathBuf], json: Option<&Path
     let mut all = Vec::new();
     for file in models {
         let failed = |source| CliError::Model { file: file.clone(), source };
-        let model = SphereModel::read(&read_text(file)?).map_err(failed)?;
+        let model = SphereModel::read(&model_text(file)?).map_err(failed)?;
         let is_trained_on_it = model.file.training.database.plan_hash == provenance.plan_hash;
         all.push(print_scores(&model, &tracks, is_trained_on_it)?);
     }

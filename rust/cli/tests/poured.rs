@@ -81,7 +81,8 @@ fn a_law_of_beds_alone_is_refused() {
     let output = command.output().unwrap();
     assert_eq!(output.status.code(), Some(1));
     assert!(
-        String::from_utf8(output.stderr).unwrap().contains("allowed: poured beds together with boxes") && !out.exists()
+        String::from_utf8(output.stderr).unwrap().contains("allowed: poured beds together with boxes")
+            && !out.exists()
     );
 }
 

@@ -223,14 +223,20 @@ where
     X: Ranged<ValueType = f64> + ValueFormatter<f64>,
     Y: Ranged<ValueType = f64> + ValueFormatter<f64>,
 {
+    // Ticks are sums of steps, so that of zero may differ from it by rounding.
+    let tick = |value: f64, range: std::ops::Range<f64>, log: bool| {
+        let is_zero = !log && value.abs() < 1e-9 * (range.end - range.start);
+        number(if is_zero { 0.0 } else { value })
+    };
+    let (xs, ys) = (chart.x_range(), chart.y_range());
     chart
         .configure_mesh()
         .x_desc(x.label)
         .y_desc(y.label)
         .x_labels(7)
         .y_labels(7)
-        .x_label_formatter(&|v| number(*v))
-        .y_label_formatter(&|v| number(*v))
+        .x_label_formatter(&|v| tick(*v, xs.clone(), x.log))
+        .y_label_formatter(&|v| tick(*v, ys.clone(), y.log))
         .light_line_style(WHITE)
         .bold_line_style(BLACK.mix(0.12))
         .label_style((FONT, 13))

@@ -72,7 +72,7 @@ fn each_bad_table_has_its_own_text() {
         (
             "old",
             &["msdd_plugin_v2_table=other_table", "OLD"],
-            "has version 1 of the plug-in interface, which knows no shear; this library has version 2"
+            "has version 1 of the plug-in interface, which has no shear; this library has version 2"
                 .to_string(),
         ),
         ("null", &["RETURNS=NULL"], "msdd_plugin_v2_table returned NULL".to_string()),

@@ -87,7 +87,7 @@ pub fn builtin(name: &str) -> Trained {
         None => Err(SurrogateError::Option {
             key: "model",
             value: name.to_string(),
-            allowed: "builtin, builtin:increment, builtin:paper".into(),
+            allowed: "builtin, builtin:increment, builtin:paper, builtin:spheres".into(),
         }),
     }
 }

@@ -1,6 +1,6 @@
 //! What a bed of DEM is like at the start, as the law of spheres needs it.
 
-use crate::TrainingError;
+use crate::error::TrainingError;
 use msdd_beds::mobilised::mobilised;
 use msdd_beds::packings::at_start;
 use msdd_files::{list, read_text};

@@ -2,12 +2,13 @@
 //! from [`msdd_surrogate`]. [`train`] is what `msdd train`, `msdd_train` of the C interface and `msdd.train` of Python call.
 
 pub mod dem_start;
+mod error;
 mod rows;
 pub mod spheres;
 mod tracks;
 
-use msdd_files::FileError;
-use msdd_rve::database::{DatabaseError, Dataset, read_all};
+pub use error::TrainingError;
+use msdd_rve::database::{Dataset, read_all};
 use msdd_surrogate::document::hash;
 use msdd_surrogate::spheres::model::SphereModel;
 use msdd_surrogate::spheres::parameters::Free;
@@ -15,28 +16,11 @@ use msdd_surrogate::spheres::tracks::Track;
 use msdd_surrogate::spheres::training;
 use msdd_surrogate::surrogate::Surrogate;
 use msdd_surrogate::training_data::TrainingData;
-use msdd_surrogate::{DatabaseProvenance, SurrogateError, TrainingOptions, models};
+use msdd_surrogate::{DatabaseProvenance, TrainingOptions, models};
 pub use rows::training_data;
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
-
-/// Why a training cannot be done.
-#[derive(Debug, thiserror::Error)]
-pub enum TrainingError {
-    #[error(transparent)]
-    File(#[from] FileError),
-    #[error(transparent)]
-    Database(#[from] DatabaseError),
-    #[error(transparent)]
-    BedCase(#[from] msdd_beds::case::CaseError),
-    /// The model, or a training option.
-    #[error("{file}: {source}")]
-    Surrogate { file: PathBuf, source: SurrogateError },
-    /// Data that cannot be used: file, key, value and what is allowed.
-    #[error("{0}")]
-    Data(String),
-}
 
 /// What is trained, and on which data.
 #[derive(Clone, Debug, Deserialize)]

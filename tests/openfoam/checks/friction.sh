@@ -94,11 +94,18 @@ janssen() { # cells across
         bottom { type wall; faces ((0 3 2 1)); } top { type wall; faces ((4 5 6 7)); } front { type wall; faces ((0 1 5 4)); }
         back { type wall; faces ((3 7 6 2)); } low { type wall; faces ((0 4 7 3)); } high { type wall; faces ((1 2 6 5)); }'
     cell_geometry
-    controls 'endTime 1; deltaT 1; writeInterval 1;'
+    controls 'endTime 1; deltaT 1; writeInterval 1;
+        functions { wallProfile { type wallProfile; libs ("libgranularFunctionObjects.so"); bins 60; axis (0 0 1); } }'
     logged msddFoam
     e=$(paste -d ' ' <(field 0/C) <(field 1/stress) | awk -v all=$(($1*$1)) '{ k = 0.3/0.7; z = 3 - $3; sum += -$9/1000; n++ } n == all { e = sum/all - exp(-4*0.4*k*z); sum = n = 0; if (e < 0) e = -e; if (!(e <= w)) w = e; rows++ }
         END { print (rows == 60 ? w : "nan") }')
     check "Janssen's equation in a square silo, $1 x $1 cells across: the stress differs by $e <= 0.003 of that at the top" below "$e" 0.003
+    e=$(awk '/^# patch/ { name[$3 + 0] = $4; next } /^#/ || $1 == 0 { next } name[$2] ~ /low|high|front|back/ { k = 0.3/0.7; law = 0.4*k*exp(-4*0.4*k*(3 - $3)); e = -$8/1000 - law
+        if (e < 0) e = -e; if ($3 > 0.1 && !(e <= w)) w = e; rows++ } END { print (rows == 240 ? w : "nan") }' postProcessing/wallProfile/0/wallProfile.dat)
+    check "wallProfile has Janssen's shear, from a tenth of the width above the floor on, within $e <= 0.003 of the stress at the top" below "$e" 0.003
+    e=$(awk '/^# patch/ { name[$3 + 0] = $4; next } /^#/ || $1 == 0 { next } { sum += $5*(name[$2] == "bottom" ? -$6 : name[$2] == "top" ? $6 : $8) } END { e = sum/1000; print (e < 0 ? -e : e) }' \
+        postProcessing/wallProfile/0/wallProfile.dat)
+    check "and the forces on its walls add up to $e <= 1e-7 of that at the top" below "$e" 1e-7
 }
 
 # A square silo of spheres under its weight and a lid that presses, on a rough floor that slides, upright and turned by 30 degrees. With half

@@ -2,7 +2,7 @@
 
 use crate::CaseError;
 use crate::grains::Grains;
-use crate::material::Material;
+use crate::material::{CRUSH_LOADS, HARDNESSES, Material, POISSON_RATIOS};
 use crate::ranges::allow;
 use msdd_beds::case::{FRICTION, Grains as Keys, RESTITUTION};
 use msdd_beds::property::Property;
@@ -29,11 +29,6 @@ pub struct Spheres {
     /// Standard deviation of the diameters over their mean, both weighted by surface; `mean_radius` is half the mean.
     pub size_spread: f64,
 }
-
-/// Ranges of Poisson's ratio, hardness \[Pa\] and the force at which a sphere breaks \[N\].
-pub const POISSON_RATIOS: [f64; 2] = [-0.99, 0.5];
-pub const HARDNESSES: [f64; 2] = [1.0, 1e15];
-pub const CRUSH_LOADS: [f64; 2] = [1e-12, 1e9];
 
 /// Hardness of smooth spheres, which counts where they are rough \[Pa\].
 const ANY_HARDNESS: f64 = 1e9;

@@ -108,7 +108,9 @@ impl Panel {
             format!("{} {low} to {high}", self.names[k].replace("initial ", ""))
         });
         let points = distinct(&self.points, ranges);
-        let of = |name: &'static str| points.iter().filter(move |(_, sign)| *sign == name).map(move |(point, _)| (point[0], point[1]));
+        let of = |name: &'static str| {
+            points.iter().filter(move |(_, sign)| *sign == name).map(move |(point, _)| (point[0], point[1]))
+        };
         let coloured = COLOURS.map(|(name, colour)| (name, series(of(name).collect(), Style::dots(colour))));
         let mut list: Vec<_> = coloured.into_iter().filter(|(_, one)| !one.points.is_empty()).collect();
         if self.hull {
@@ -178,7 +180,8 @@ mod tests {
         let drawn = svg(&inputs(&points)).unwrap();
         // Two packings share a place of the second and third panel; a legend has no element of its kind.
         assert_eq!(drawn.matches("<circle").count(), 4 + 4 + 4);
-        let keys = ["packed", "heated", "convex hull"].map(|key| drawn.matches(&format!("\n{key}\n")).count());
+        let keys =
+            ["packed", "heated", "convex hull"].map(|key| drawn.matches(&format!("\n{key}\n")).count());
         assert_eq!(keys, [3, 2, 3], "{drawn}");
         assert!(drawn.contains("porosity 0.1 to 0.15, fabric index 0 to 0.1"), "{drawn}");
         for label in ["initial porosity", "initial fabric index", "thermal strain"] {

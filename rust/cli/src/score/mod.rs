@@ -6,7 +6,7 @@ use crate::error::CliError;
 use crate::spheres;
 use clap::Args;
 use msdd_case::numbers::{plain, rounded};
-use msdd_files::{check_target, read_text, write};
+use msdd_files::{check_target, write};
 use msdd_rve::database::read_all;
 use msdd_surrogate::SurrogateError;
 use msdd_surrogate::composition::Composed;
@@ -21,7 +21,7 @@ use std::path::PathBuf;
 
 #[derive(Args)]
 pub struct Arguments {
-    /// Model file; given several times, the main errors of the models are printed side by side at the end.
+    /// Model file, or a shipped model (builtin, builtin:paper, builtin:spheres); given several times, the main errors of the models are printed side by side at the end.
     #[arg(long, value_name = "FILE", required = true)]
     model: Vec<PathBuf>,
     /// Database, or the CSV that was exported from one; given several times, all of them together. If the model was trained
@@ -47,7 +47,7 @@ pub fn run(arguments: &Arguments) -> Result<(), CliError> {
     let mut scores = Vec::new();
     for file in &arguments.model {
         let failed = |source| CliError::Model { file: file.clone(), source };
-        let model = models::read(&read_text(file)?).map_err(failed)?;
+        let model = models::read(&spheres::model_text(file)?).map_err(failed)?;
         let failed = |source| CliError::Model { file: arguments.database[0].clone(), source };
         let ramps = ramps(model.as_ref(), &data, &plan_hash).map_err(failed)?;
         let result = score(model.as_ref(), &ramps);

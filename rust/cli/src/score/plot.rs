@@ -28,7 +28,10 @@ fn parity(model: &dyn Surrogate, ramps: &[Ramp]) -> Result<String, CliError> {
         let dots = pairs.iter().step_by(pairs.len().div_ceil(POINTS)).map(|[data, model]| (*data, *model));
         let list = vec![
             ("states of packings".to_string(), series(dots.collect(), Style::dots(2))),
-            ("model = DEM".to_string(), series([range.0, range.1].map(|v| (v, v)).into(), Style::line(0, Line::Solid))),
+            (
+                "model = DEM".to_string(),
+                series([range.0, range.1].map(|v| (v, v)).into(), Style::line(0, Line::Solid)),
+            ),
         ];
         let title = format!("{name}: R² = {:.3} for {} values", r_squared(pairs), pairs.len());
         Ok(plot_named(&title, &axis(&x), &axis(&y), list)?)
@@ -50,7 +53,8 @@ fn response(model: &dyn Surrogate) -> Result<String, CliError> {
     ];
     let panel = |(name, value): (&str, Value)| {
         let curves = POROSITIES.map(|porosity| curve(model, porosity, value));
-        let ends = [curves[0].first(), curves[0].last()].map(|end| significant(end.map_or(0.0, |end| end.1), 2));
+        let ends =
+            [curves[0].first(), curves[0].last()].map(|end| significant(end.map_or(0.0, |end| end.1), 2));
         let title = format!("{name} {} to {} from porosity {}", ends[0], ends[1], POROSITIES[0]);
         let named = |(k, points): (usize, Vec<(f64, f64)>)| {
             let from = if k == 0 { "from porosity " } else { "" };

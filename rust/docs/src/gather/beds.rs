@@ -13,7 +13,7 @@ const ORIGIN: &str = "msdd reference beds";
 const QUANTITIES: [(&str, &str); 3] = [("T", "T"), ("pressure", "p"), ("conductivity", "K")];
 /// What scenes are for, in `plan.toml`, and as the book says it.
 const USES: [(&str, &str); 3] =
-    [("calibrate", "fitted to"), ("judge", "judged by"), ("outside", "of another friction")];
+    [("calibrate", "for calibration"), ("judge", "for validation"), ("outside", "of another friction")];
 
 /// # Errors
 /// Files that are missing or lack a column.
@@ -114,8 +114,9 @@ fn plates(section: &mut Section, beds: &Json) -> Result<(), DocsError> {
     let mut row = vec!["mean".to_string(), String::new()];
     row.extend(sums.map(|[sum, count]| decimals(sum / count, 2)));
     rows.push(row);
-    let columns = ["bed", "packings", "given where pressed [d]", "given back where let up [d]"];
-    let meaning = "slack of the bed at each of two smooth plates, in diameters, and how much one packing differs";
+    let columns = ["bed", "packings", "slack on loading [d]", "recovered on unloading [d]"];
+    let meaning =
+        "slack of the bed at each of two smooth plates, in diameters, and how much one packing differs";
     section.add_table("plates-give", meaning, "msdd bed slack", &columns, rows);
     Ok(())
 }

@@ -6,7 +6,7 @@ use crate::gather::print::decimals;
 use crate::results::Section;
 use std::path::Path;
 
-/// Case; what its rows are called in print and in the book; what is wanted.
+/// Case; what its rows are called in print and in the book; the target.
 type Row = (&'static str, &'static str, &'static str);
 const CASES: [(&str, [Row; 7]); 2] = [
     (
@@ -59,7 +59,7 @@ pub fn tables(root: &Path, section: &mut Section) -> Result<(), DocsError> {
             table.push(row);
         }
         let meaning = format!("case {case}: solver minus DEM");
-        let columns = ["solver minus DEM", "rms", "worst", "one packing", "wanted"];
+        let columns = ["solver minus DEM", "rms", "worst", "one packing", "target"];
         section.add_table(
             &format!("beside-{case}"),
             &meaning,

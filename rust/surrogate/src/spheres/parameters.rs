@@ -18,6 +18,12 @@ enum Scale {
 
 use Scale::{Logarithm, Over};
 
+/// A bound for a message: 1e-6 instead of 0.000001.
+fn short(bound: f64) -> String {
+    let (plain, power) = (bound.to_string(), format!("{bound:e}"));
+    if plain.len() > power.len() + 1 { power } else { plain }
+}
+
 impl Scale {
     fn range(&self) -> [f64; 2] {
         match self {
@@ -30,7 +36,7 @@ impl Scale {
         let [least, most] = self.range();
         match (least..=most).contains(&value) {
             true => Ok(()),
-            false => Err(format!("{least} to {most}")),
+            false => Err(format!("{} to {}", short(least), short(most))),
         }
     }
 }

@@ -39,7 +39,8 @@ pub fn train(tracks: &[Track], options: &TrainingOptions) -> Result<SphereModel,
         return Err(SurrogateError::Data(text.to_string()));
     }
     if !seen.iter().any(|track| track.packed.gas.iter().all(|gas| gas.is_finite())) {
-        let text = "poured beds alone, which have no data for the gas, allowed: poured beds together with boxes";
+        let text =
+            "poured beds alone, which have no data for the gas, allowed: poured beds together with boxes";
         return Err(SurrogateError::Data(text.to_string()));
     }
     let contacts = contacts(&beginning(), &seen);

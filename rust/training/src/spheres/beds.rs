@@ -2,8 +2,8 @@
 //! known inside.
 
 use super::same::SeenValues;
-use crate::TrainingError;
 use crate::dem_start::{FirstRow, packings};
+use crate::error::TrainingError;
 use msdd_beds::case::{BedCase, FILE, file_in};
 use msdd_beds::effective::BedMaterial;
 use msdd_beds::packings::column;

@@ -4,7 +4,7 @@ pub mod beds;
 mod same;
 mod tracks;
 
-use crate::TrainingError;
+use crate::error::TrainingError;
 use msdd_rve::database::{SpherePlan, read_spheres};
 use msdd_surrogate::DatabaseProvenance;
 use msdd_surrogate::document::hash;

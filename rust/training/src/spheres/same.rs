@@ -1,6 +1,6 @@
 //! Refuses data of spheres of different materials: one law cannot be fitted to both.
 
-use crate::TrainingError;
+use crate::error::TrainingError;
 use std::path::{Path, PathBuf};
 
 /// What the materials of the data must agree in. Stresses are over E* and conductivities over that of the grains, so that these do not
