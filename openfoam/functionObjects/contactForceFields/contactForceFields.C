@@ -70,7 +70,7 @@ Foam::functionObjects::contactForceFields::contactForceFields
     const dictionary& dict
 )
 :
-    granularFunctionObject(name, typeName, runTime, dict)
+    granularFunctionObject(name, typeName, runTime, dict, contactForcesColumns)
 {
     begin(dict);
 }
@@ -99,19 +99,6 @@ void Foam::functionObjects::contactForceFields::writeField
     field.primitiveFieldRef() = values;
     field.correctBoundaryConditions();
     field.write();
-}
-
-
-// * * * * * * * * * * * * * Protected Member Functions  * * * * * * * * * * //
-
-void Foam::functionObjects::contactForceFields::writeHead(Ostream& os) const
-{
-    contactForcesColumns.explain(os);
-    writeCommented(os, "Time");
-    for (const keyTable::entry& column : contactForcesColumns.entries())
-    {
-        writeTabbed(os, column.name);
-    }
 }
 
 

@@ -23,11 +23,13 @@ Foam::functionObjects::granularFunctionObject::granularFunctionObject
     const word& name,
     const word& file,
     const Time& runTime,
-    const dictionary& dict
+    const dictionary& dict,
+    const keyTable& columns
 )
 :
     fvMeshFunctionObject(name, runTime, dict),
-    writeFile(mesh_, name, file)
+    writeFile(mesh_, name, file),
+    columns_(columns)
 {}
 
 
@@ -137,6 +139,20 @@ Foam::Ostream& Foam::functionObjects::granularFunctionObject::line()
     }
     file() << time_.timeName();
     return file();
+}
+
+
+void Foam::functionObjects::granularFunctionObject::writeHead
+(
+    Ostream& os
+) const
+{
+    columns_.explain(os);
+    writeCommented(os, "Time");
+    for (const keyTable::entry& column : columns_.entries())
+    {
+        writeTabbed(os, column.name);
+    }
 }
 
 

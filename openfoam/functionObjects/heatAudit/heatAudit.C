@@ -84,24 +84,11 @@ Foam::functionObjects::heatAudit::heatAudit
     const dictionary& dict
 )
 :
-    granularFunctionObject(name, typeName, runTime, dict),
+    granularFunctionObject(name, typeName, runTime, dict, heatAuditColumns),
     tolerance_(heatAuditKeys.number(dict, "tolerance", VGREAT)),
     difference_(0)
 {
     begin(dict);
-}
-
-
-// * * * * * * * * * * * * * Protected Member Functions  * * * * * * * * * * //
-
-void Foam::functionObjects::heatAudit::writeHead(Ostream& os) const
-{
-    heatAuditColumns.explain(os);
-    writeCommented(os, "Time");
-    for (const keyTable::entry& column : heatAuditColumns.entries())
-    {
-        writeTabbed(os, column.name);
-    }
 }
 
 

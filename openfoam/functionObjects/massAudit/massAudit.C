@@ -71,23 +71,10 @@ Foam::functionObjects::massAudit::massAudit
     const dictionary& dict
 )
 :
-    granularFunctionObject(name, typeName, runTime, dict),
+    granularFunctionObject(name, typeName, runTime, dict, massAuditColumns),
     change_(0)
 {
     begin(dict);
-}
-
-
-// * * * * * * * * * * * * * Protected Member Functions  * * * * * * * * * * //
-
-void Foam::functionObjects::massAudit::writeHead(Ostream& os) const
-{
-    massAuditColumns.explain(os);
-    writeCommented(os, "Time");
-    for (const keyTable::entry& column : massAuditColumns.entries())
-    {
-        writeTabbed(os, column.name);
-    }
 }
 
 

@@ -71,7 +71,7 @@ Foam::functionObjects::spaceProbes::spaceProbes
     const dictionary& dict
 )
 :
-    granularFunctionObject(name, typeName, runTime, dict),
+    granularFunctionObject(name, typeName, runTime, dict, spaceProbesColumns),
     field_(spaceProbesKeys.value<word>(dict, "field")),
     points_(spaceProbesKeys.value<pointField>(dict, "probeLocations"))
 {

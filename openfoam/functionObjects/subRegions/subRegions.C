@@ -74,7 +74,7 @@ Foam::functionObjects::subRegions::subRegions
     const dictionary& dict
 )
 :
-    granularFunctionObject(name, typeName, runTime, dict),
+    granularFunctionObject(name, typeName, runTime, dict, subRegionsColumns),
     windows_(subRegionsKeys.value<FixedList<label, 2>>(dict, "windows")),
     windowOf_(mesh_.nCells())
 {
@@ -96,19 +96,6 @@ Foam::functionObjects::subRegions::subRegions
             min(i, windows_[0] - 1) + windows_[0]*min(j, windows_[1] - 1);
     }
     begin(dict);
-}
-
-
-// * * * * * * * * * * * * * Protected Member Functions  * * * * * * * * * * //
-
-void Foam::functionObjects::subRegions::writeHead(Ostream& os) const
-{
-    subRegionsColumns.explain(os);
-    writeCommented(os, "Time");
-    for (const keyTable::entry& column : subRegionsColumns.entries())
-    {
-        writeTabbed(os, column.name);
-    }
 }
 
 

@@ -68,7 +68,7 @@ Foam::functionObjects::wallPressure::wallPressure
     const dictionary& dict
 )
 :
-    granularFunctionObject(name, typeName, runTime, dict)
+    granularFunctionObject(name, typeName, runTime, dict, wallPressureColumns)
 {
     for (const fvPatch& patch : mesh_.boundary())
     {

@@ -122,7 +122,7 @@ Foam::functionObjects::wallProfile::wallProfile
     const dictionary& dict
 )
 :
-    granularFunctionObject(name, typeName, runTime, dict),
+    granularFunctionObject(name, typeName, runTime, dict, wallProfileColumns),
     axis_(findAxis(dict)),
     origin_(dict.getOrDefault("origin", mesh_.bounds().midpoint())),
     bins_(label(wallProfileKeys.number(dict, "bins"))),

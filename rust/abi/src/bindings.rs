@@ -27,12 +27,8 @@ pub struct msdd_input {
 const _: () = {
     ["Size of msdd_input"][::core::mem::size_of::<msdd_input>() - 16usize];
     ["Alignment of msdd_input"][::core::mem::align_of::<msdd_input>() - 8usize];
-    [
-        "Offset of field: msdd_input::values",
-    ][::core::mem::offset_of!(msdd_input, values) - 0usize];
-    [
-        "Offset of field: msdd_input::stride",
-    ][::core::mem::offset_of!(msdd_input, stride) - 8usize];
+    ["Offset of field: msdd_input::values"][::core::mem::offset_of!(msdd_input, values) - 0usize];
+    ["Offset of field: msdd_input::stride"][::core::mem::offset_of!(msdd_input, stride) - 8usize];
 };
 #[repr(C)]
 #[derive(Debug, Copy, Clone)]
@@ -44,12 +40,8 @@ pub struct msdd_output {
 const _: () = {
     ["Size of msdd_output"][::core::mem::size_of::<msdd_output>() - 16usize];
     ["Alignment of msdd_output"][::core::mem::align_of::<msdd_output>() - 8usize];
-    [
-        "Offset of field: msdd_output::values",
-    ][::core::mem::offset_of!(msdd_output, values) - 0usize];
-    [
-        "Offset of field: msdd_output::stride",
-    ][::core::mem::offset_of!(msdd_output, stride) - 8usize];
+    ["Offset of field: msdd_output::values"][::core::mem::offset_of!(msdd_output, values) - 0usize];
+    ["Offset of field: msdd_output::stride"][::core::mem::offset_of!(msdd_output, stride) - 8usize];
 };
 #[repr(C)]
 #[derive(Debug, Copy, Clone)]
@@ -71,42 +63,24 @@ pub struct msdd_grains {
 const _: () = {
     ["Size of msdd_grains"][::core::mem::size_of::<msdd_grains>() - 96usize];
     ["Alignment of msdd_grains"][::core::mem::align_of::<msdd_grains>() - 8usize];
-    [
-        "Offset of field: msdd_grains::struct_size",
-    ][::core::mem::offset_of!(msdd_grains, struct_size) - 0usize];
-    [
-        "Offset of field: msdd_grains::conductivity",
-    ][::core::mem::offset_of!(msdd_grains, conductivity) - 8usize];
-    [
-        "Offset of field: msdd_grains::young_modulus",
-    ][::core::mem::offset_of!(msdd_grains, young_modulus) - 16usize];
-    [
-        "Offset of field: msdd_grains::radius",
-    ][::core::mem::offset_of!(msdd_grains, radius) - 24usize];
-    [
-        "Offset of field: msdd_grains::poisson_ratio",
-    ][::core::mem::offset_of!(msdd_grains, poisson_ratio) - 32usize];
-    [
-        "Offset of field: msdd_grains::roughness",
-    ][::core::mem::offset_of!(msdd_grains, roughness) - 40usize];
-    [
-        "Offset of field: msdd_grains::hardness",
-    ][::core::mem::offset_of!(msdd_grains, hardness) - 48usize];
-    [
-        "Offset of field: msdd_grains::gas",
-    ][::core::mem::offset_of!(msdd_grains, gas) - 56usize];
-    [
-        "Offset of field: msdd_grains::gas_pressure",
-    ][::core::mem::offset_of!(msdd_grains, gas_pressure) - 64usize];
-    [
-        "Offset of field: msdd_grains::accommodation",
-    ][::core::mem::offset_of!(msdd_grains, accommodation) - 72usize];
-    [
-        "Offset of field: msdd_grains::emissivity",
-    ][::core::mem::offset_of!(msdd_grains, emissivity) - 80usize];
-    [
-        "Offset of field: msdd_grains::size_spread",
-    ][::core::mem::offset_of!(msdd_grains, size_spread) - 88usize];
+    ["Offset of field: msdd_grains::struct_size"][::core::mem::offset_of!(msdd_grains, struct_size) - 0usize];
+    ["Offset of field: msdd_grains::conductivity"]
+        [::core::mem::offset_of!(msdd_grains, conductivity) - 8usize];
+    ["Offset of field: msdd_grains::young_modulus"]
+        [::core::mem::offset_of!(msdd_grains, young_modulus) - 16usize];
+    ["Offset of field: msdd_grains::radius"][::core::mem::offset_of!(msdd_grains, radius) - 24usize];
+    ["Offset of field: msdd_grains::poisson_ratio"]
+        [::core::mem::offset_of!(msdd_grains, poisson_ratio) - 32usize];
+    ["Offset of field: msdd_grains::roughness"][::core::mem::offset_of!(msdd_grains, roughness) - 40usize];
+    ["Offset of field: msdd_grains::hardness"][::core::mem::offset_of!(msdd_grains, hardness) - 48usize];
+    ["Offset of field: msdd_grains::gas"][::core::mem::offset_of!(msdd_grains, gas) - 56usize];
+    ["Offset of field: msdd_grains::gas_pressure"]
+        [::core::mem::offset_of!(msdd_grains, gas_pressure) - 64usize];
+    ["Offset of field: msdd_grains::accommodation"]
+        [::core::mem::offset_of!(msdd_grains, accommodation) - 72usize];
+    ["Offset of field: msdd_grains::emissivity"][::core::mem::offset_of!(msdd_grains, emissivity) - 80usize];
+    ["Offset of field: msdd_grains::size_spread"]
+        [::core::mem::offset_of!(msdd_grains, size_spread) - 88usize];
 };
 #[repr(C)]
 #[derive(Debug, Copy, Clone)]
@@ -138,72 +112,35 @@ pub struct msdd_step {
 const _: () = {
     ["Size of msdd_step"][::core::mem::size_of::<msdd_step>() - 248usize];
     ["Alignment of msdd_step"][::core::mem::align_of::<msdd_step>() - 8usize];
-    [
-        "Offset of field: msdd_step::struct_size",
-    ][::core::mem::offset_of!(msdd_step, struct_size) - 0usize];
-    [
-        "Offset of field: msdd_step::cells",
-    ][::core::mem::offset_of!(msdd_step, cells) - 8usize];
-    [
-        "Offset of field: msdd_step::components",
-    ][::core::mem::offset_of!(msdd_step, components) - 16usize];
-    [
-        "Offset of field: msdd_step::state",
-    ][::core::mem::offset_of!(msdd_step, state) - 24usize];
-    [
-        "Offset of field: msdd_step::thermal_strain",
-    ][::core::mem::offset_of!(msdd_step, thermal_strain) - 32usize];
-    [
-        "Offset of field: msdd_step::total_thermal_strain",
-    ][::core::mem::offset_of!(msdd_step, total_thermal_strain) - 48usize];
-    [
-        "Offset of field: msdd_step::strain",
-    ][::core::mem::offset_of!(msdd_step, strain) - 64usize];
-    [
-        "Offset of field: msdd_step::rotation",
-    ][::core::mem::offset_of!(msdd_step, rotation) - 72usize];
-    [
-        "Offset of field: msdd_step::temperature",
-    ][::core::mem::offset_of!(msdd_step, temperature) - 80usize];
-    [
-        "Offset of field: msdd_step::solid_conductivity",
-    ][::core::mem::offset_of!(msdd_step, solid_conductivity) - 96usize];
-    [
-        "Offset of field: msdd_step::emissivity",
-    ][::core::mem::offset_of!(msdd_step, emissivity) - 112usize];
-    [
-        "Offset of field: msdd_step::next_state",
-    ][::core::mem::offset_of!(msdd_step, next_state) - 128usize];
-    [
-        "Offset of field: msdd_step::stress",
-    ][::core::mem::offset_of!(msdd_step, stress) - 136usize];
-    [
-        "Offset of field: msdd_step::tangent",
-    ][::core::mem::offset_of!(msdd_step, tangent) - 144usize];
-    [
-        "Offset of field: msdd_step::conductivity",
-    ][::core::mem::offset_of!(msdd_step, conductivity) - 152usize];
-    [
-        "Offset of field: msdd_step::gas_conductivity",
-    ][::core::mem::offset_of!(msdd_step, gas_conductivity) - 160usize];
-    [
-        "Offset of field: msdd_step::radiation_conductivity",
-    ][::core::mem::offset_of!(msdd_step, radiation_conductivity) - 176usize];
-    [
-        "Offset of field: msdd_step::solid_fraction",
-    ][::core::mem::offset_of!(msdd_step, solid_fraction) - 192usize];
-    [
-        "Offset of field: msdd_step::spread",
-    ][::core::mem::offset_of!(msdd_step, spread) - 208usize];
-    [
-        "Offset of field: msdd_step::distance",
-    ][::core::mem::offset_of!(msdd_step, distance) - 224usize];
-    [
-        "Offset of field: msdd_step::outside",
-    ][::core::mem::offset_of!(msdd_step, outside) - 232usize];
-    [
-        "Offset of field: msdd_step::outside_cells",
-    ][::core::mem::offset_of!(msdd_step, outside_cells) - 240usize];
+    ["Offset of field: msdd_step::struct_size"][::core::mem::offset_of!(msdd_step, struct_size) - 0usize];
+    ["Offset of field: msdd_step::cells"][::core::mem::offset_of!(msdd_step, cells) - 8usize];
+    ["Offset of field: msdd_step::components"][::core::mem::offset_of!(msdd_step, components) - 16usize];
+    ["Offset of field: msdd_step::state"][::core::mem::offset_of!(msdd_step, state) - 24usize];
+    ["Offset of field: msdd_step::thermal_strain"]
+        [::core::mem::offset_of!(msdd_step, thermal_strain) - 32usize];
+    ["Offset of field: msdd_step::total_thermal_strain"]
+        [::core::mem::offset_of!(msdd_step, total_thermal_strain) - 48usize];
+    ["Offset of field: msdd_step::strain"][::core::mem::offset_of!(msdd_step, strain) - 64usize];
+    ["Offset of field: msdd_step::rotation"][::core::mem::offset_of!(msdd_step, rotation) - 72usize];
+    ["Offset of field: msdd_step::temperature"][::core::mem::offset_of!(msdd_step, temperature) - 80usize];
+    ["Offset of field: msdd_step::solid_conductivity"]
+        [::core::mem::offset_of!(msdd_step, solid_conductivity) - 96usize];
+    ["Offset of field: msdd_step::emissivity"][::core::mem::offset_of!(msdd_step, emissivity) - 112usize];
+    ["Offset of field: msdd_step::next_state"][::core::mem::offset_of!(msdd_step, next_state) - 128usize];
+    ["Offset of field: msdd_step::stress"][::core::mem::offset_of!(msdd_step, stress) - 136usize];
+    ["Offset of field: msdd_step::tangent"][::core::mem::offset_of!(msdd_step, tangent) - 144usize];
+    ["Offset of field: msdd_step::conductivity"][::core::mem::offset_of!(msdd_step, conductivity) - 152usize];
+    ["Offset of field: msdd_step::gas_conductivity"]
+        [::core::mem::offset_of!(msdd_step, gas_conductivity) - 160usize];
+    ["Offset of field: msdd_step::radiation_conductivity"]
+        [::core::mem::offset_of!(msdd_step, radiation_conductivity) - 176usize];
+    ["Offset of field: msdd_step::solid_fraction"]
+        [::core::mem::offset_of!(msdd_step, solid_fraction) - 192usize];
+    ["Offset of field: msdd_step::spread"][::core::mem::offset_of!(msdd_step, spread) - 208usize];
+    ["Offset of field: msdd_step::distance"][::core::mem::offset_of!(msdd_step, distance) - 224usize];
+    ["Offset of field: msdd_step::outside"][::core::mem::offset_of!(msdd_step, outside) - 232usize];
+    ["Offset of field: msdd_step::outside_cells"]
+        [::core::mem::offset_of!(msdd_step, outside_cells) - 240usize];
 };
 #[repr(C)]
 #[derive(Debug, Copy, Clone)]
@@ -225,42 +162,22 @@ pub struct msdd_start {
 const _: () = {
     ["Size of msdd_start"][::core::mem::size_of::<msdd_start>() - 144usize];
     ["Alignment of msdd_start"][::core::mem::align_of::<msdd_start>() - 8usize];
-    [
-        "Offset of field: msdd_start::struct_size",
-    ][::core::mem::offset_of!(msdd_start, struct_size) - 0usize];
-    [
-        "Offset of field: msdd_start::cells",
-    ][::core::mem::offset_of!(msdd_start, cells) - 8usize];
-    [
-        "Offset of field: msdd_start::components",
-    ][::core::mem::offset_of!(msdd_start, components) - 16usize];
-    [
-        "Offset of field: msdd_start::porosity",
-    ][::core::mem::offset_of!(msdd_start, porosity) - 24usize];
-    [
-        "Offset of field: msdd_start::fabric_index",
-    ][::core::mem::offset_of!(msdd_start, fabric_index) - 40usize];
-    [
-        "Offset of field: msdd_start::fabric_xy",
-    ][::core::mem::offset_of!(msdd_start, fabric_xy) - 56usize];
-    [
-        "Offset of field: msdd_start::solid_fraction",
-    ][::core::mem::offset_of!(msdd_start, solid_fraction) - 72usize];
-    [
-        "Offset of field: msdd_start::stress",
-    ][::core::mem::offset_of!(msdd_start, stress) - 88usize];
-    [
-        "Offset of field: msdd_start::conductivity",
-    ][::core::mem::offset_of!(msdd_start, conductivity) - 96usize];
-    [
-        "Offset of field: msdd_start::fabric",
-    ][::core::mem::offset_of!(msdd_start, fabric) - 104usize];
-    [
-        "Offset of field: msdd_start::coordination",
-    ][::core::mem::offset_of!(msdd_start, coordination) - 112usize];
-    [
-        "Offset of field: msdd_start::mobilised",
-    ][::core::mem::offset_of!(msdd_start, mobilised) - 128usize];
+    ["Offset of field: msdd_start::struct_size"][::core::mem::offset_of!(msdd_start, struct_size) - 0usize];
+    ["Offset of field: msdd_start::cells"][::core::mem::offset_of!(msdd_start, cells) - 8usize];
+    ["Offset of field: msdd_start::components"][::core::mem::offset_of!(msdd_start, components) - 16usize];
+    ["Offset of field: msdd_start::porosity"][::core::mem::offset_of!(msdd_start, porosity) - 24usize];
+    ["Offset of field: msdd_start::fabric_index"]
+        [::core::mem::offset_of!(msdd_start, fabric_index) - 40usize];
+    ["Offset of field: msdd_start::fabric_xy"][::core::mem::offset_of!(msdd_start, fabric_xy) - 56usize];
+    ["Offset of field: msdd_start::solid_fraction"]
+        [::core::mem::offset_of!(msdd_start, solid_fraction) - 72usize];
+    ["Offset of field: msdd_start::stress"][::core::mem::offset_of!(msdd_start, stress) - 88usize];
+    ["Offset of field: msdd_start::conductivity"]
+        [::core::mem::offset_of!(msdd_start, conductivity) - 96usize];
+    ["Offset of field: msdd_start::fabric"][::core::mem::offset_of!(msdd_start, fabric) - 104usize];
+    ["Offset of field: msdd_start::coordination"]
+        [::core::mem::offset_of!(msdd_start, coordination) - 112usize];
+    ["Offset of field: msdd_start::mobilised"][::core::mem::offset_of!(msdd_start, mobilised) - 128usize];
 };
 #[repr(C)]
 #[derive(Debug, Copy, Clone)]
@@ -277,33 +194,23 @@ pub struct msdd_sphere_wall {
 #[allow(clippy::unnecessary_operation, clippy::identity_op)]
 const _: () = {
     ["Size of msdd_sphere_wall"][::core::mem::size_of::<msdd_sphere_wall>() - 64usize];
-    [
-        "Alignment of msdd_sphere_wall",
-    ][::core::mem::align_of::<msdd_sphere_wall>() - 8usize];
-    [
-        "Offset of field: msdd_sphere_wall::struct_size",
-    ][::core::mem::offset_of!(msdd_sphere_wall, struct_size) - 0usize];
-    [
-        "Offset of field: msdd_sphere_wall::conductivity",
-    ][::core::mem::offset_of!(msdd_sphere_wall, conductivity) - 8usize];
-    [
-        "Offset of field: msdd_sphere_wall::young_modulus",
-    ][::core::mem::offset_of!(msdd_sphere_wall, young_modulus) - 16usize];
-    [
-        "Offset of field: msdd_sphere_wall::poisson_ratio",
-    ][::core::mem::offset_of!(msdd_sphere_wall, poisson_ratio) - 24usize];
-    [
-        "Offset of field: msdd_sphere_wall::roughness",
-    ][::core::mem::offset_of!(msdd_sphere_wall, roughness) - 32usize];
-    [
-        "Offset of field: msdd_sphere_wall::hardness",
-    ][::core::mem::offset_of!(msdd_sphere_wall, hardness) - 40usize];
-    [
-        "Offset of field: msdd_sphere_wall::spheres",
-    ][::core::mem::offset_of!(msdd_sphere_wall, spheres) - 48usize];
-    [
-        "Offset of field: msdd_sphere_wall::emissivity",
-    ][::core::mem::offset_of!(msdd_sphere_wall, emissivity) - 56usize];
+    ["Alignment of msdd_sphere_wall"][::core::mem::align_of::<msdd_sphere_wall>() - 8usize];
+    ["Offset of field: msdd_sphere_wall::struct_size"]
+        [::core::mem::offset_of!(msdd_sphere_wall, struct_size) - 0usize];
+    ["Offset of field: msdd_sphere_wall::conductivity"]
+        [::core::mem::offset_of!(msdd_sphere_wall, conductivity) - 8usize];
+    ["Offset of field: msdd_sphere_wall::young_modulus"]
+        [::core::mem::offset_of!(msdd_sphere_wall, young_modulus) - 16usize];
+    ["Offset of field: msdd_sphere_wall::poisson_ratio"]
+        [::core::mem::offset_of!(msdd_sphere_wall, poisson_ratio) - 24usize];
+    ["Offset of field: msdd_sphere_wall::roughness"]
+        [::core::mem::offset_of!(msdd_sphere_wall, roughness) - 32usize];
+    ["Offset of field: msdd_sphere_wall::hardness"]
+        [::core::mem::offset_of!(msdd_sphere_wall, hardness) - 40usize];
+    ["Offset of field: msdd_sphere_wall::spheres"]
+        [::core::mem::offset_of!(msdd_sphere_wall, spheres) - 48usize];
+    ["Offset of field: msdd_sphere_wall::emissivity"]
+        [::core::mem::offset_of!(msdd_sphere_wall, emissivity) - 56usize];
 };
 #[repr(C)]
 #[derive(Debug, Copy, Clone)]
@@ -338,78 +245,49 @@ pub struct msdd_averages {
 const _: () = {
     ["Size of msdd_averages"][::core::mem::size_of::<msdd_averages>() - 160usize];
     ["Alignment of msdd_averages"][::core::mem::align_of::<msdd_averages>() - 8usize];
-    [
-        "Offset of field: msdd_averages::struct_size",
-    ][::core::mem::offset_of!(msdd_averages, struct_size) - 0usize];
-    [
-        "Offset of field: msdd_averages::porosity",
-    ][::core::mem::offset_of!(msdd_averages, porosity) - 8usize];
-    [
-        "Offset of field: msdd_averages::porosity_sum_of_areas",
-    ][::core::mem::offset_of!(msdd_averages, porosity_sum_of_areas) - 16usize];
-    [
-        "Offset of field: msdd_averages::fabric_index",
-    ][::core::mem::offset_of!(msdd_averages, fabric_index) - 24usize];
-    [
-        "Offset of field: msdd_averages::fabric_conductivity",
-    ][::core::mem::offset_of!(msdd_averages, fabric_conductivity) - 32usize];
-    [
-        "Offset of field: msdd_averages::conductivity_xx",
-    ][::core::mem::offset_of!(msdd_averages, conductivity_xx) - 40usize];
-    [
-        "Offset of field: msdd_averages::conductivity_yy",
-    ][::core::mem::offset_of!(msdd_averages, conductivity_yy) - 48usize];
-    [
-        "Offset of field: msdd_averages::conductivity_xy",
-    ][::core::mem::offset_of!(msdd_averages, conductivity_xy) - 56usize];
-    [
-        "Offset of field: msdd_averages::conductivity_network_xx",
-    ][::core::mem::offset_of!(msdd_averages, conductivity_network_xx) - 64usize];
-    [
-        "Offset of field: msdd_averages::conductivity_network_yy",
-    ][::core::mem::offset_of!(msdd_averages, conductivity_network_yy) - 72usize];
-    [
-        "Offset of field: msdd_averages::conductivity_network_xy",
-    ][::core::mem::offset_of!(msdd_averages, conductivity_network_xy) - 80usize];
-    [
-        "Offset of field: msdd_averages::stress_xx",
-    ][::core::mem::offset_of!(msdd_averages, stress_xx) - 88usize];
-    [
-        "Offset of field: msdd_averages::stress_yy",
-    ][::core::mem::offset_of!(msdd_averages, stress_yy) - 96usize];
-    [
-        "Offset of field: msdd_averages::stress_xy",
-    ][::core::mem::offset_of!(msdd_averages, stress_xy) - 104usize];
-    [
-        "Offset of field: msdd_averages::stress_yx",
-    ][::core::mem::offset_of!(msdd_averages, stress_yx) - 112usize];
-    [
-        "Offset of field: msdd_averages::pressure",
-    ][::core::mem::offset_of!(msdd_averages, pressure) - 120usize];
-    [
-        "Offset of field: msdd_averages::coordination",
-    ][::core::mem::offset_of!(msdd_averages, coordination) - 128usize];
-    [
-        "Offset of field: msdd_averages::mean_radius",
-    ][::core::mem::offset_of!(msdd_averages, mean_radius) - 136usize];
-    [
-        "Offset of field: msdd_averages::rattlers",
-    ][::core::mem::offset_of!(msdd_averages, rattlers) - 144usize];
-    [
-        "Offset of field: msdd_averages::contacts",
-    ][::core::mem::offset_of!(msdd_averages, contacts) - 152usize];
+    ["Offset of field: msdd_averages::struct_size"]
+        [::core::mem::offset_of!(msdd_averages, struct_size) - 0usize];
+    ["Offset of field: msdd_averages::porosity"][::core::mem::offset_of!(msdd_averages, porosity) - 8usize];
+    ["Offset of field: msdd_averages::porosity_sum_of_areas"]
+        [::core::mem::offset_of!(msdd_averages, porosity_sum_of_areas) - 16usize];
+    ["Offset of field: msdd_averages::fabric_index"]
+        [::core::mem::offset_of!(msdd_averages, fabric_index) - 24usize];
+    ["Offset of field: msdd_averages::fabric_conductivity"]
+        [::core::mem::offset_of!(msdd_averages, fabric_conductivity) - 32usize];
+    ["Offset of field: msdd_averages::conductivity_xx"]
+        [::core::mem::offset_of!(msdd_averages, conductivity_xx) - 40usize];
+    ["Offset of field: msdd_averages::conductivity_yy"]
+        [::core::mem::offset_of!(msdd_averages, conductivity_yy) - 48usize];
+    ["Offset of field: msdd_averages::conductivity_xy"]
+        [::core::mem::offset_of!(msdd_averages, conductivity_xy) - 56usize];
+    ["Offset of field: msdd_averages::conductivity_network_xx"]
+        [::core::mem::offset_of!(msdd_averages, conductivity_network_xx) - 64usize];
+    ["Offset of field: msdd_averages::conductivity_network_yy"]
+        [::core::mem::offset_of!(msdd_averages, conductivity_network_yy) - 72usize];
+    ["Offset of field: msdd_averages::conductivity_network_xy"]
+        [::core::mem::offset_of!(msdd_averages, conductivity_network_xy) - 80usize];
+    ["Offset of field: msdd_averages::stress_xx"]
+        [::core::mem::offset_of!(msdd_averages, stress_xx) - 88usize];
+    ["Offset of field: msdd_averages::stress_yy"]
+        [::core::mem::offset_of!(msdd_averages, stress_yy) - 96usize];
+    ["Offset of field: msdd_averages::stress_xy"]
+        [::core::mem::offset_of!(msdd_averages, stress_xy) - 104usize];
+    ["Offset of field: msdd_averages::stress_yx"]
+        [::core::mem::offset_of!(msdd_averages, stress_yx) - 112usize];
+    ["Offset of field: msdd_averages::pressure"][::core::mem::offset_of!(msdd_averages, pressure) - 120usize];
+    ["Offset of field: msdd_averages::coordination"]
+        [::core::mem::offset_of!(msdd_averages, coordination) - 128usize];
+    ["Offset of field: msdd_averages::mean_radius"]
+        [::core::mem::offset_of!(msdd_averages, mean_radius) - 136usize];
+    ["Offset of field: msdd_averages::rattlers"][::core::mem::offset_of!(msdd_averages, rattlers) - 144usize];
+    ["Offset of field: msdd_averages::contacts"][::core::mem::offset_of!(msdd_averages, contacts) - 152usize];
 };
 pub const MSDD_SETTLED: msdd_outcome = 0;
 pub const MSDD_CAPPED: msdd_outcome = 1;
 pub const MSDD_UNJAMMED: msdd_outcome = 2;
 pub type msdd_outcome = ::core::ffi::c_uint;
 pub type msdd_progress = ::core::option::Option<
-    unsafe extern "C" fn(
-        user: *mut ::core::ffi::c_void,
-        done: u64,
-        total: u64,
-        failed: u64,
-    ) -> i32,
+    unsafe extern "C" fn(user: *mut ::core::ffi::c_void, done: u64, total: u64, failed: u64) -> i32,
 >;
 #[repr(C)]
 #[derive(Debug, Copy, Clone)]
@@ -430,45 +308,30 @@ pub struct msdd_plugin_start {
 #[allow(clippy::unnecessary_operation, clippy::identity_op)]
 const _: () = {
     ["Size of msdd_plugin_start"][::core::mem::size_of::<msdd_plugin_start>() - 96usize];
-    [
-        "Alignment of msdd_plugin_start",
-    ][::core::mem::align_of::<msdd_plugin_start>() - 8usize];
-    [
-        "Offset of field: msdd_plugin_start::struct_size",
-    ][::core::mem::offset_of!(msdd_plugin_start, struct_size) - 0usize];
-    [
-        "Offset of field: msdd_plugin_start::cells",
-    ][::core::mem::offset_of!(msdd_plugin_start, cells) - 8usize];
-    [
-        "Offset of field: msdd_plugin_start::porosity",
-    ][::core::mem::offset_of!(msdd_plugin_start, porosity) - 16usize];
-    [
-        "Offset of field: msdd_plugin_start::fabric_index",
-    ][::core::mem::offset_of!(msdd_plugin_start, fabric_index) - 24usize];
-    [
-        "Offset of field: msdd_plugin_start::fabric_xy",
-    ][::core::mem::offset_of!(msdd_plugin_start, fabric_xy) - 32usize];
-    [
-        "Offset of field: msdd_plugin_start::stress_xx",
-    ][::core::mem::offset_of!(msdd_plugin_start, stress_xx) - 40usize];
-    [
-        "Offset of field: msdd_plugin_start::stress_yy",
-    ][::core::mem::offset_of!(msdd_plugin_start, stress_yy) - 48usize];
-    [
-        "Offset of field: msdd_plugin_start::stress_xy",
-    ][::core::mem::offset_of!(msdd_plugin_start, stress_xy) - 56usize];
-    [
-        "Offset of field: msdd_plugin_start::conductivity_xx",
-    ][::core::mem::offset_of!(msdd_plugin_start, conductivity_xx) - 64usize];
-    [
-        "Offset of field: msdd_plugin_start::conductivity_yy",
-    ][::core::mem::offset_of!(msdd_plugin_start, conductivity_yy) - 72usize];
-    [
-        "Offset of field: msdd_plugin_start::conductivity_xy",
-    ][::core::mem::offset_of!(msdd_plugin_start, conductivity_xy) - 80usize];
-    [
-        "Offset of field: msdd_plugin_start::state",
-    ][::core::mem::offset_of!(msdd_plugin_start, state) - 88usize];
+    ["Alignment of msdd_plugin_start"][::core::mem::align_of::<msdd_plugin_start>() - 8usize];
+    ["Offset of field: msdd_plugin_start::struct_size"]
+        [::core::mem::offset_of!(msdd_plugin_start, struct_size) - 0usize];
+    ["Offset of field: msdd_plugin_start::cells"][::core::mem::offset_of!(msdd_plugin_start, cells) - 8usize];
+    ["Offset of field: msdd_plugin_start::porosity"]
+        [::core::mem::offset_of!(msdd_plugin_start, porosity) - 16usize];
+    ["Offset of field: msdd_plugin_start::fabric_index"]
+        [::core::mem::offset_of!(msdd_plugin_start, fabric_index) - 24usize];
+    ["Offset of field: msdd_plugin_start::fabric_xy"]
+        [::core::mem::offset_of!(msdd_plugin_start, fabric_xy) - 32usize];
+    ["Offset of field: msdd_plugin_start::stress_xx"]
+        [::core::mem::offset_of!(msdd_plugin_start, stress_xx) - 40usize];
+    ["Offset of field: msdd_plugin_start::stress_yy"]
+        [::core::mem::offset_of!(msdd_plugin_start, stress_yy) - 48usize];
+    ["Offset of field: msdd_plugin_start::stress_xy"]
+        [::core::mem::offset_of!(msdd_plugin_start, stress_xy) - 56usize];
+    ["Offset of field: msdd_plugin_start::conductivity_xx"]
+        [::core::mem::offset_of!(msdd_plugin_start, conductivity_xx) - 64usize];
+    ["Offset of field: msdd_plugin_start::conductivity_yy"]
+        [::core::mem::offset_of!(msdd_plugin_start, conductivity_yy) - 72usize];
+    ["Offset of field: msdd_plugin_start::conductivity_xy"]
+        [::core::mem::offset_of!(msdd_plugin_start, conductivity_xy) - 80usize];
+    ["Offset of field: msdd_plugin_start::state"]
+        [::core::mem::offset_of!(msdd_plugin_start, state) - 88usize];
 };
 #[repr(C)]
 #[derive(Debug, Copy, Clone)]
@@ -494,60 +357,39 @@ pub struct msdd_plugin_step {
 #[allow(clippy::unnecessary_operation, clippy::identity_op)]
 const _: () = {
     ["Size of msdd_plugin_step"][::core::mem::size_of::<msdd_plugin_step>() - 136usize];
-    [
-        "Alignment of msdd_plugin_step",
-    ][::core::mem::align_of::<msdd_plugin_step>() - 8usize];
-    [
-        "Offset of field: msdd_plugin_step::struct_size",
-    ][::core::mem::offset_of!(msdd_plugin_step, struct_size) - 0usize];
-    [
-        "Offset of field: msdd_plugin_step::cells",
-    ][::core::mem::offset_of!(msdd_plugin_step, cells) - 8usize];
-    [
-        "Offset of field: msdd_plugin_step::state",
-    ][::core::mem::offset_of!(msdd_plugin_step, state) - 16usize];
-    [
-        "Offset of field: msdd_plugin_step::thermal_strain",
-    ][::core::mem::offset_of!(msdd_plugin_step, thermal_strain) - 24usize];
-    [
-        "Offset of field: msdd_plugin_step::strain_xx",
-    ][::core::mem::offset_of!(msdd_plugin_step, strain_xx) - 32usize];
-    [
-        "Offset of field: msdd_plugin_step::strain_yy",
-    ][::core::mem::offset_of!(msdd_plugin_step, strain_yy) - 40usize];
-    [
-        "Offset of field: msdd_plugin_step::strain_xy",
-    ][::core::mem::offset_of!(msdd_plugin_step, strain_xy) - 48usize];
-    [
-        "Offset of field: msdd_plugin_step::rotation",
-    ][::core::mem::offset_of!(msdd_plugin_step, rotation) - 56usize];
-    [
-        "Offset of field: msdd_plugin_step::next_state",
-    ][::core::mem::offset_of!(msdd_plugin_step, next_state) - 64usize];
-    [
-        "Offset of field: msdd_plugin_step::conductivity_xx",
-    ][::core::mem::offset_of!(msdd_plugin_step, conductivity_xx) - 72usize];
-    [
-        "Offset of field: msdd_plugin_step::conductivity_yy",
-    ][::core::mem::offset_of!(msdd_plugin_step, conductivity_yy) - 80usize];
-    [
-        "Offset of field: msdd_plugin_step::conductivity_xy",
-    ][::core::mem::offset_of!(msdd_plugin_step, conductivity_xy) - 88usize];
-    [
-        "Offset of field: msdd_plugin_step::stress_xx",
-    ][::core::mem::offset_of!(msdd_plugin_step, stress_xx) - 96usize];
-    [
-        "Offset of field: msdd_plugin_step::stress_yy",
-    ][::core::mem::offset_of!(msdd_plugin_step, stress_yy) - 104usize];
-    [
-        "Offset of field: msdd_plugin_step::stress_xy",
-    ][::core::mem::offset_of!(msdd_plugin_step, stress_xy) - 112usize];
-    [
-        "Offset of field: msdd_plugin_step::tangent",
-    ][::core::mem::offset_of!(msdd_plugin_step, tangent) - 120usize];
-    [
-        "Offset of field: msdd_plugin_step::outside",
-    ][::core::mem::offset_of!(msdd_plugin_step, outside) - 128usize];
+    ["Alignment of msdd_plugin_step"][::core::mem::align_of::<msdd_plugin_step>() - 8usize];
+    ["Offset of field: msdd_plugin_step::struct_size"]
+        [::core::mem::offset_of!(msdd_plugin_step, struct_size) - 0usize];
+    ["Offset of field: msdd_plugin_step::cells"][::core::mem::offset_of!(msdd_plugin_step, cells) - 8usize];
+    ["Offset of field: msdd_plugin_step::state"][::core::mem::offset_of!(msdd_plugin_step, state) - 16usize];
+    ["Offset of field: msdd_plugin_step::thermal_strain"]
+        [::core::mem::offset_of!(msdd_plugin_step, thermal_strain) - 24usize];
+    ["Offset of field: msdd_plugin_step::strain_xx"]
+        [::core::mem::offset_of!(msdd_plugin_step, strain_xx) - 32usize];
+    ["Offset of field: msdd_plugin_step::strain_yy"]
+        [::core::mem::offset_of!(msdd_plugin_step, strain_yy) - 40usize];
+    ["Offset of field: msdd_plugin_step::strain_xy"]
+        [::core::mem::offset_of!(msdd_plugin_step, strain_xy) - 48usize];
+    ["Offset of field: msdd_plugin_step::rotation"]
+        [::core::mem::offset_of!(msdd_plugin_step, rotation) - 56usize];
+    ["Offset of field: msdd_plugin_step::next_state"]
+        [::core::mem::offset_of!(msdd_plugin_step, next_state) - 64usize];
+    ["Offset of field: msdd_plugin_step::conductivity_xx"]
+        [::core::mem::offset_of!(msdd_plugin_step, conductivity_xx) - 72usize];
+    ["Offset of field: msdd_plugin_step::conductivity_yy"]
+        [::core::mem::offset_of!(msdd_plugin_step, conductivity_yy) - 80usize];
+    ["Offset of field: msdd_plugin_step::conductivity_xy"]
+        [::core::mem::offset_of!(msdd_plugin_step, conductivity_xy) - 88usize];
+    ["Offset of field: msdd_plugin_step::stress_xx"]
+        [::core::mem::offset_of!(msdd_plugin_step, stress_xx) - 96usize];
+    ["Offset of field: msdd_plugin_step::stress_yy"]
+        [::core::mem::offset_of!(msdd_plugin_step, stress_yy) - 104usize];
+    ["Offset of field: msdd_plugin_step::stress_xy"]
+        [::core::mem::offset_of!(msdd_plugin_step, stress_xy) - 112usize];
+    ["Offset of field: msdd_plugin_step::tangent"]
+        [::core::mem::offset_of!(msdd_plugin_step, tangent) - 120usize];
+    ["Offset of field: msdd_plugin_step::outside"]
+        [::core::mem::offset_of!(msdd_plugin_step, outside) - 128usize];
 };
 #[repr(C)]
 #[derive(Debug, Copy, Clone)]
@@ -560,29 +402,15 @@ pub struct msdd_plugin_v2 {
     pub name: *const ::core::ffi::c_char,
     pub state_size: usize,
     pub state_names: *const *const ::core::ffi::c_char,
-    pub initial_state: ::core::option::Option<
-        unsafe extern "C" fn(start: *const msdd_plugin_start) -> i32,
-    >,
-    pub advance: ::core::option::Option<
-        unsafe extern "C" fn(step: *const msdd_plugin_step) -> i32,
-    >,
+    pub initial_state: ::core::option::Option<unsafe extern "C" fn(start: *const msdd_plugin_start) -> i32>,
+    pub advance: ::core::option::Option<unsafe extern "C" fn(step: *const msdd_plugin_step) -> i32>,
     pub solid_fraction: ::core::option::Option<
-        unsafe extern "C" fn(
-            cells: usize,
-            porosity: *const f64,
-            solid_fraction: *mut f64,
-        ) -> i32,
+        unsafe extern "C" fn(cells: usize, porosity: *const f64, solid_fraction: *mut f64) -> i32,
     >,
     pub spread: ::core::option::Option<
-        unsafe extern "C" fn(
-            cells: usize,
-            state: *const *const f64,
-            spread: *mut f64,
-        ) -> i32,
+        unsafe extern "C" fn(cells: usize, state: *const *const f64, spread: *mut f64) -> i32,
     >,
-    pub last_error: ::core::option::Option<
-        unsafe extern "C" fn() -> *const ::core::ffi::c_char,
-    >,
+    pub last_error: ::core::option::Option<unsafe extern "C" fn() -> *const ::core::ffi::c_char>,
     pub wall_friction_limit: f64,
     pub wall_friction_slip: f64,
 }
@@ -590,61 +418,39 @@ pub struct msdd_plugin_v2 {
 const _: () = {
     ["Size of msdd_plugin_v2"][::core::mem::size_of::<msdd_plugin_v2>() - 104usize];
     ["Alignment of msdd_plugin_v2"][::core::mem::align_of::<msdd_plugin_v2>() - 8usize];
-    [
-        "Offset of field: msdd_plugin_v2::struct_size",
-    ][::core::mem::offset_of!(msdd_plugin_v2, struct_size) - 0usize];
-    [
-        "Offset of field: msdd_plugin_v2::version",
-    ][::core::mem::offset_of!(msdd_plugin_v2, version) - 8usize];
-    [
-        "Offset of field: msdd_plugin_v2::network_conductivity",
-    ][::core::mem::offset_of!(msdd_plugin_v2, network_conductivity) - 12usize];
-    [
-        "Offset of field: msdd_plugin_v2::has_tangent",
-    ][::core::mem::offset_of!(msdd_plugin_v2, has_tangent) - 16usize];
-    [
-        "Offset of field: msdd_plugin_v2::reserved",
-    ][::core::mem::offset_of!(msdd_plugin_v2, reserved) - 20usize];
-    [
-        "Offset of field: msdd_plugin_v2::name",
-    ][::core::mem::offset_of!(msdd_plugin_v2, name) - 24usize];
-    [
-        "Offset of field: msdd_plugin_v2::state_size",
-    ][::core::mem::offset_of!(msdd_plugin_v2, state_size) - 32usize];
-    [
-        "Offset of field: msdd_plugin_v2::state_names",
-    ][::core::mem::offset_of!(msdd_plugin_v2, state_names) - 40usize];
-    [
-        "Offset of field: msdd_plugin_v2::initial_state",
-    ][::core::mem::offset_of!(msdd_plugin_v2, initial_state) - 48usize];
-    [
-        "Offset of field: msdd_plugin_v2::advance",
-    ][::core::mem::offset_of!(msdd_plugin_v2, advance) - 56usize];
-    [
-        "Offset of field: msdd_plugin_v2::solid_fraction",
-    ][::core::mem::offset_of!(msdd_plugin_v2, solid_fraction) - 64usize];
-    [
-        "Offset of field: msdd_plugin_v2::spread",
-    ][::core::mem::offset_of!(msdd_plugin_v2, spread) - 72usize];
-    [
-        "Offset of field: msdd_plugin_v2::last_error",
-    ][::core::mem::offset_of!(msdd_plugin_v2, last_error) - 80usize];
-    [
-        "Offset of field: msdd_plugin_v2::wall_friction_limit",
-    ][::core::mem::offset_of!(msdd_plugin_v2, wall_friction_limit) - 88usize];
-    [
-        "Offset of field: msdd_plugin_v2::wall_friction_slip",
-    ][::core::mem::offset_of!(msdd_plugin_v2, wall_friction_slip) - 96usize];
+    ["Offset of field: msdd_plugin_v2::struct_size"]
+        [::core::mem::offset_of!(msdd_plugin_v2, struct_size) - 0usize];
+    ["Offset of field: msdd_plugin_v2::version"][::core::mem::offset_of!(msdd_plugin_v2, version) - 8usize];
+    ["Offset of field: msdd_plugin_v2::network_conductivity"]
+        [::core::mem::offset_of!(msdd_plugin_v2, network_conductivity) - 12usize];
+    ["Offset of field: msdd_plugin_v2::has_tangent"]
+        [::core::mem::offset_of!(msdd_plugin_v2, has_tangent) - 16usize];
+    ["Offset of field: msdd_plugin_v2::reserved"]
+        [::core::mem::offset_of!(msdd_plugin_v2, reserved) - 20usize];
+    ["Offset of field: msdd_plugin_v2::name"][::core::mem::offset_of!(msdd_plugin_v2, name) - 24usize];
+    ["Offset of field: msdd_plugin_v2::state_size"]
+        [::core::mem::offset_of!(msdd_plugin_v2, state_size) - 32usize];
+    ["Offset of field: msdd_plugin_v2::state_names"]
+        [::core::mem::offset_of!(msdd_plugin_v2, state_names) - 40usize];
+    ["Offset of field: msdd_plugin_v2::initial_state"]
+        [::core::mem::offset_of!(msdd_plugin_v2, initial_state) - 48usize];
+    ["Offset of field: msdd_plugin_v2::advance"][::core::mem::offset_of!(msdd_plugin_v2, advance) - 56usize];
+    ["Offset of field: msdd_plugin_v2::solid_fraction"]
+        [::core::mem::offset_of!(msdd_plugin_v2, solid_fraction) - 64usize];
+    ["Offset of field: msdd_plugin_v2::spread"][::core::mem::offset_of!(msdd_plugin_v2, spread) - 72usize];
+    ["Offset of field: msdd_plugin_v2::last_error"]
+        [::core::mem::offset_of!(msdd_plugin_v2, last_error) - 80usize];
+    ["Offset of field: msdd_plugin_v2::wall_friction_limit"]
+        [::core::mem::offset_of!(msdd_plugin_v2, wall_friction_limit) - 88usize];
+    ["Offset of field: msdd_plugin_v2::wall_friction_slip"]
+        [::core::mem::offset_of!(msdd_plugin_v2, wall_friction_slip) - 96usize];
 };
 unsafe extern "C" {
     pub fn msdd_abi_version() -> u32;
     pub fn msdd_version() -> *const ::core::ffi::c_char;
     pub fn msdd_last_error() -> *const ::core::ffi::c_char;
     pub fn msdd_text_free(text: *mut ::core::ffi::c_char);
-    pub fn msdd_model_load(
-        source: *const ::core::ffi::c_char,
-        out: *mut *mut msdd_model,
-    ) -> i32;
+    pub fn msdd_model_load(source: *const ::core::ffi::c_char, out: *mut *mut msdd_model) -> i32;
     pub fn msdd_model_with_conductivity(
         model: *const msdd_model,
         kind: *const ::core::ffi::c_char,
@@ -653,10 +459,7 @@ unsafe extern "C" {
     pub fn msdd_model_hash(model: *const msdd_model) -> *const ::core::ffi::c_char;
     pub fn msdd_model_describe(model: *const msdd_model) -> *const ::core::ffi::c_char;
     pub fn msdd_model_state_size(model: *const msdd_model) -> usize;
-    pub fn msdd_model_state_name(
-        model: *const msdd_model,
-        column: usize,
-    ) -> *const ::core::ffi::c_char;
+    pub fn msdd_model_state_name(model: *const msdd_model, column: usize) -> *const ::core::ffi::c_char;
     pub fn msdd_model_components(model: *const msdd_model) -> usize;
     pub fn msdd_model_has_tangent(model: *const msdd_model) -> i32;
     pub fn msdd_model_wall_friction(
@@ -692,18 +495,9 @@ unsafe extern "C" {
         conductivity: *const f64,
         resistance: *mut f64,
     ) -> i32;
-    pub fn msdd_rve_pack(
-        specification: *const ::core::ffi::c_char,
-        out: *mut *mut msdd_rve,
-    ) -> i32;
-    pub fn msdd_rve_from_json(
-        text: *const ::core::ffi::c_char,
-        out: *mut *mut msdd_rve,
-    ) -> i32;
-    pub fn msdd_rve_to_json(
-        rve: *const msdd_rve,
-        out: *mut *mut ::core::ffi::c_char,
-    ) -> i32;
+    pub fn msdd_rve_pack(specification: *const ::core::ffi::c_char, out: *mut *mut msdd_rve) -> i32;
+    pub fn msdd_rve_from_json(text: *const ::core::ffi::c_char, out: *mut *mut msdd_rve) -> i32;
+    pub fn msdd_rve_to_json(rve: *const msdd_rve, out: *mut *mut ::core::ffi::c_char) -> i32;
     pub fn msdd_rve_clone(rve: *const msdd_rve, out: *mut *mut msdd_rve) -> i32;
     pub fn msdd_rve_strain(
         rve: *mut msdd_rve,
@@ -713,10 +507,7 @@ unsafe extern "C" {
         xy: f64,
         outcome: *mut i32,
     ) -> i32;
-    pub fn msdd_rve_homogenise(
-        rve: *const msdd_rve,
-        averages: *mut msdd_averages,
-    ) -> i32;
+    pub fn msdd_rve_homogenise(rve: *const msdd_rve, averages: *mut msdd_averages) -> i32;
     pub fn msdd_rve_free(rve: *mut msdd_rve);
     pub fn msdd_database_generate(
         plan: *const ::core::ffi::c_char,
@@ -730,10 +521,7 @@ unsafe extern "C" {
         csv: *const ::core::ffi::c_char,
         rows: *mut u64,
     ) -> i32;
-    pub fn msdd_train(
-        request: *const ::core::ffi::c_char,
-        model: *mut *mut ::core::ffi::c_char,
-    ) -> i32;
+    pub fn msdd_train(request: *const ::core::ffi::c_char, model: *mut *mut ::core::ffi::c_char) -> i32;
     pub fn msdd_plugin_v2_table() -> *const msdd_plugin_v2;
     pub fn msdd_compared(
         hash: *const ::core::ffi::c_char,

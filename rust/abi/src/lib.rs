@@ -3,7 +3,6 @@
 
 #[allow(unsafe_code)] // declarations alone
 #[allow(non_camel_case_types, unused, clippy::all)]
-#[rustfmt::skip]
 mod bindings;
 
 pub use bindings::*;

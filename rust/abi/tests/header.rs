@@ -17,7 +17,7 @@ fn bindings() -> String {
         .merge_extern_blocks(true)
         .disable_header_comment()
         .raw_line("//! What bindgen makes of `msdd.h`; `cargo test -p msdd-abi --test header` holds it against the header.")
-        .formatter(bindgen::Formatter::Prettyplease)
+        .rustfmt_configuration_file(Some(Path::new(env!("CARGO_MANIFEST_DIR")).join("../../rustfmt.toml")))
         .generate();
     made.expect("bindings from msdd.h").to_string()
 }

@@ -11,8 +11,8 @@
 //!
 //! K of spheres is known from the state of the bed, not from a start that is given, and a good part of it is the gas's.
 //!
-//! The numbers are fitted ([`crate::calibrate`]) to reference scenes: those of discs by `msdd reference scenes --bands`, those of
-//! spheres by `msdd reference beds --bands`.
+//! The numbers are fitted to reference scenes: those of discs by `comparisons scenes --bands`, an example of rust/cli, those of
+//! spheres by `comparisons beds --bands`.
 
 use crate::bed::{BandInputs, Grains};
 use crate::quantity::Quantity;

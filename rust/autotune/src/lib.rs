@@ -11,7 +11,6 @@
 //! | [`trial`] | the case folder of a combination, and its run |
 //! | [`bed`] | the bed as far as the bands need to know it |
 //! | [`bands`] | how far the discs of a real bed may lie from a run |
-//! | [`calibrate`] | the fit of the bands to reference scenes |
 //! | [`found`] | what a search finds, and what it has seen on the way |
 //! | [`runs`] | the runs of a search, and how far they are apart |
 //! | [`cells`] | how many cells along each direction |
@@ -23,7 +22,6 @@
 pub mod average;
 pub mod bands;
 pub mod bed;
-pub mod calibrate;
 pub mod cells;
 pub mod found;
 pub mod interval;

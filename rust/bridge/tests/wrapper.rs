@@ -2,7 +2,7 @@
 //! traps.
 
 use msdd_bridge::ffi::{self, Cells};
-use msdd_surrogate::surrogate::{Batch, InitialData, evaluate_batch};
+use msdd_surrogate::surrogate::{InitialData, MAX_STATE};
 use msdd_surrogate::{Surrogate, models};
 
 const COUNT: usize = 37;
@@ -25,19 +25,18 @@ fn start(model: &ffi::Model) -> Cells {
 /// The same step by the Rust function, for grains of k = E = r = 1, for which dimensionless results equal those in SI units.
 fn in_rust(model: &dyn Surrogate, cells: &Cells) -> Cells {
     let mut after = cells.clone();
-    let state: Vec<&[f64]> = cells.state.chunks(COUNT).collect();
-    let mut next: Vec<&mut [f64]> = after.state.chunks_mut(COUNT).collect();
-    let (mut kxy, mut sxy) = (vec![0.0; COUNT], vec![0.0; COUNT]);
-    let mut batch = Batch {
-        strain: &cells.thermal_strain,
-        state: &state,
-        next_state: &mut next,
-        conductivity: Some([&mut after.conductivity_xx, &mut after.conductivity_yy, &mut kxy]),
-        stress: Some([&mut after.stress_xx, &mut after.stress_yy, &mut sxy]),
-        outside: None,
-        tangent: None,
-    };
-    after.clamped_cells = evaluate_batch(model, &mut batch);
+    after.clamped_cells = 0;
+    for cell in 0..COUNT {
+        let mut state = [0.0; MAX_STATE];
+        state.iter_mut().zip(cells.state.chunks(COUNT)).for_each(|(value, column)| *value = column[cell]);
+        let answer = model.evaluate(&state, cells.thermal_strain[cell]);
+        after.state.chunks_mut(COUNT).zip(&answer.state).for_each(|(column, lanes)| column[cell] = lanes[0]);
+        after.conductivity_xx[cell] = answer.conductivity[0][0];
+        after.conductivity_yy[cell] = answer.conductivity[1][0];
+        after.stress_xx[cell] = answer.stress[0][0];
+        after.stress_yy[cell] = answer.stress[1][0];
+        after.clamped_cells += usize::from(!answer.inside(0));
+    }
     after
 }
 

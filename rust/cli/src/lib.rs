@@ -6,7 +6,6 @@
 mod output;
 
 mod bed;
-mod bench;
 mod case;
 mod confirm;
 mod database;
@@ -65,9 +64,6 @@ enum Command {
     /// Simulate the whole box of a case by DEM: the reference that the solver is compared with.
     #[command(subcommand)]
     Reference(reference::Command),
-    /// Measure speed and stability limits; prints JSON.
-    #[command(subcommand)]
-    Bench(bench::Command),
     /// Train a surrogate model on a database, and print how good it is on packings that the training never saw.
     Train(train::Arguments),
     /// Measure the errors of a trained model on packings that were not used in its training: table, JSON, plots.
@@ -79,6 +75,17 @@ enum Command {
     Report(report::Arguments),
     /// Compare the solver's results of the six cases with DEM: table, JSON and plot.
     Summary(summary::Arguments),
+}
+
+/// What `examples/comparisons` and `examples/bench` share with the program.
+pub mod shared {
+    pub use crate::bed::foam::{files, probes};
+    pub use crate::bed::geometry::Geometry;
+    pub use crate::case::{attempt, beside, checkout};
+    pub use crate::error::CliError;
+    pub use crate::rve::{read_state, write_state};
+    pub use crate::simd::SimdArgument;
+    pub use crate::threads::parser as threads_parser;
 }
 
 /// The description of all commands, for the book.
@@ -96,7 +103,6 @@ pub fn run() -> ExitCode {
         Command::Rve(command) => rve::run(&command),
         Command::Bed(command) => bed::run(&command),
         Command::Reference(command) => reference::run(&command),
-        Command::Bench(command) => bench::run(&command),
         Command::Train(arguments) => train::run(&arguments),
         Command::Score(arguments) => score::run(&arguments),
         Command::Report(arguments) => report::run(&arguments),

@@ -300,8 +300,7 @@ mod tests {
     #[test]
     fn discs_of_other_grains_are_not_compared() {
         let checkout = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
-        let plan = crate::scenes::plan::Plan::read(&checkout.join("cases/scenes/plan.toml")).unwrap();
-        let case = plan.scenes.iter().find(|scene| scene.friction.is_none()).unwrap().case().unwrap();
+        let case = Case::read(&checkout.join("cases/corner")).unwrap();
         let older = Results::read(&checkout.join("cases/reference/results/corner_seed11.json")).unwrap();
         assert!(check_grains(&case, &older).is_ok());
         let newer = Results { properties: Some(Properties::of(&case)), ..older.clone() };

@@ -14,7 +14,6 @@
 //! | [`solver`] | reads the solver's results from a case folder |
 //! | [`series`] | interpolation, means and deviations |
 //! | [`compare`] | the solver's errors against the discs |
-//! | [`scenes`] | reference scenes that differ in box, walls, heating, packing, expansion and grains |
 //!
 //! Case folders are read by [`msdd_case`].
 #![forbid(unsafe_code)]
@@ -27,7 +26,6 @@ pub mod observe;
 pub mod packings;
 pub mod results;
 pub mod run;
-pub mod scenes;
 pub mod series;
 pub mod solver;
 pub mod start;

@@ -129,7 +129,7 @@ fn temperature_of_closest(simulation: &Simulation, [x, y]: [f64; 2]) -> f64 {
 }
 
 /// Mean T of the discs with their centre in the rectangle, weighted by mass, so that it corresponds to their heat.
-pub(crate) fn mean_temperature(simulation: &Simulation, low: [f64; 2], high: [f64; 2]) -> f64 {
+pub fn mean_temperature(simulation: &Simulation, low: [f64; 2], high: [f64; 2]) -> f64 {
     let (mut heat, mut mass) = (0.0, 0.0);
     let inside =
         |at: &&msdd_dem::Disc| (low[0]..=high[0]).contains(&at.x) && (low[1]..=high[1]).contains(&at.y);

@@ -9,7 +9,6 @@
 //! | [`region`] | the averaging region: a convex polygon |
 //! | [`area`] | exact area of a union of discs inside a polygon |
 //! | [`homogenise`](mod@homogenise) | porosity, fabric, conductivity, stress (Eqs. 8–11) |
-//! | [`heat_check`](mod@heat_check) | flux through a whole assembly compared with its homogenised conductivity |
 //! | [`network`] | conductivity from the solved network of contacts |
 //! | [`slide`](mod@slide) | long walls slip along the grains: mobilised wall friction |
 //! | [`state`] | state files: one assembly as JSON |
@@ -25,7 +24,8 @@
 pub mod area;
 pub mod database;
 pub mod expand;
-pub mod heat_check;
+#[cfg(test)]
+mod heat_check_tests;
 pub mod homogenise;
 pub mod last_good;
 pub mod message;
@@ -45,7 +45,6 @@ pub mod vtk;
 pub mod window;
 
 pub use expand::{Protocol, Ramp, Stop, Strains, expand, follow};
-pub use heat_check::{Axis, HeatCheck, heat_check};
 pub use homogenise::{Averages, homogenise, homogenise_affine_in, homogenise_in};
 pub use msdd_dem::{Material, Simulation};
 pub use pack::{

@@ -1,6 +1,6 @@
 //! Ranges of the beds by which the default models were compared with DEM. Beyond them nothing is known of a model's error.
 //!
-//! `compared.json` is made by `msdd reference ranges` from the results of DEM in `cases/scenes` and `cases/beds`.
+//! `compared.json` is made by `cases/beds/make` from the results of DEM in `cases/scenes` and `cases/beds`.
 //!
 //! | quantity | of | least | largest |
 //! |---|---|---|---|

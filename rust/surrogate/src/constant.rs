@@ -6,9 +6,7 @@ use crate::document::{field, hash, json, schema};
 use crate::kernel::LANES;
 use crate::options::TrainingOptions;
 use crate::solid_fraction::SolidFraction;
-use crate::surrogate::{
-    Answer, Increment, InitialData, MAX_STATE, StateLanes, Surrogate, Tangent, Uncertainty,
-};
+use crate::surrogate::{Answer, Increment, MAX_STATE, StateLanes, Surrogate, Tangent};
 use serde::{Deserialize, Serialize};
 
 /// Name of the schema. Its number is increased when a reader of the old schema would misread the new one.
@@ -105,16 +103,6 @@ impl Surrogate for ConstantModel {
         json(&self.file) + "\n"
     }
 
-    fn state_names(&self) -> &[&'static str] {
-        &["porosity", "fabric_index"]
-    }
-
-    fn initial_state(&self, known: &InitialData) -> [f64; MAX_STATE] {
-        let mut state = [0.0; MAX_STATE];
-        state[..2].copy_from_slice(&[known.porosity, known.fabric_index]);
-        state
-    }
-
     fn advance(&self, state: &StateLanes, _: &Increment, answer: &mut Answer, _: Option<&mut Tangent>) {
         let [k, p, zero] = [self.file.conductivity, self.file.pressure, 0.0].map(|value| [value; LANES]);
         *answer = Answer {
@@ -123,10 +111,6 @@ impl Surrogate for ConstantModel {
             stress: [p, p, zero],
             outside: [zero; MAX_STATE + 1],
         };
-    }
-
-    fn uncertainty(&self, _state: &[f64; MAX_STATE]) -> Option<Uncertainty> {
-        None
     }
 
     fn solid_fraction(&self, porosity: f64) -> f64 {

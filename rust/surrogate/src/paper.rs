@@ -4,9 +4,7 @@ use crate::increment::readout::CONDUCTIVITY_FLOOR;
 use crate::kernel::LANES;
 use crate::model::Model;
 use crate::options::TrainingOptions;
-use crate::surrogate::{
-    Answer, Increment, InitialData, MAX_STATE, StateLanes, Surrogate, Tangent, Uncertainty,
-};
+use crate::surrogate::{Answer, Increment, MAX_STATE, StateLanes, Surrogate, Tangent};
 
 impl Surrogate for Model {
     fn kind(&self) -> &'static str {
@@ -27,16 +25,6 @@ impl Surrogate for Model {
 
     fn to_json(&self) -> String {
         Model::to_json(self)
-    }
-
-    fn state_names(&self) -> &[&'static str] {
-        &["porosity", "fabric_index"]
-    }
-
-    fn initial_state(&self, known: &InitialData) -> [f64; MAX_STATE] {
-        let mut state = [0.0; MAX_STATE];
-        state[..2].copy_from_slice(&[known.porosity, known.fabric_index]);
-        state
     }
 
     fn advance(&self, state: &StateLanes, strain: &Increment, answer: &mut Answer, _: Option<&mut Tangent>) {
@@ -63,10 +51,6 @@ impl Surrogate for Model {
         }
     }
 
-    fn uncertainty(&self, _state: &[f64; MAX_STATE]) -> Option<Uncertainty> {
-        None
-    }
-
     fn solid_fraction(&self, porosity: f64) -> f64 {
         Model::solid_fraction(self, porosity)
     }
@@ -80,6 +64,7 @@ impl Surrogate for Model {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::surrogate::InitialData;
 
     #[test]
     fn gives_the_networks_answers() {

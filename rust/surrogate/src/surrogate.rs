@@ -137,10 +137,16 @@ pub trait Surrogate: Send + Sync {
     /// Text of the model file; reading it gives this model, bit for bit.
     fn to_json(&self) -> String;
     /// Names of the state columns, in order; at most [`MAX_STATE`]. The first two are porosity and fabric_index.
-    fn state_names(&self) -> &[&'static str];
+    fn state_names(&self) -> &[&'static str] {
+        &["porosity", "fabric_index"]
+    }
     /// The state of a cell at the start. Of its quantities, at least η and f are known; those that are not known are
     /// set to the mean of packed states.
-    fn initial_state(&self, known: &InitialData) -> [f64; MAX_STATE];
+    fn initial_state(&self, known: &InitialData) -> [f64; MAX_STATE] {
+        let mut state = [0.0; MAX_STATE];
+        state[..2].copy_from_slice(&[known.porosity, known.fabric_index]);
+        state
+    }
     /// Strains a block of cells. Finite inputs give finite answers; the answer of a lane depends on that lane alone. A model
     /// without [`Surrogate::has_tangent`] uses the thermal strain alone and leaves `tangent` as it is; others write it.
     fn advance(
@@ -152,7 +158,9 @@ pub trait Surrogate: Send + Sync {
     );
     /// Reliability of the answer for one cell; `None` when the model contains no data for it. Slower than an
     /// evaluation.
-    fn uncertainty(&self, state: &[f64; MAX_STATE]) -> Option<Uncertainty>;
+    fn uncertainty(&self, _state: &[f64; MAX_STATE]) -> Option<Uncertainty> {
+        None
+    }
     /// Sum-of-areas solid fraction [-] of a packed state of this porosity.
     fn solid_fraction(&self, porosity: f64) -> f64;
     /// Least and largest porosity [-] of the packed states of the training.
@@ -169,75 +177,4 @@ pub trait Surrogate: Send + Sync {
     fn evaluate(&self, state: &[f64; MAX_STATE], strain: f64) -> Answer {
         self.block(&state.map(|value| [value; LANES]), &[strain; LANES])
     }
-}
-
-/// Columns of a batch of cells. Optional outputs are written when they are given.
-pub struct Batch<'a> {
-    /// Thermal strain of each cell [-].
-    pub strain: &'a [f64],
-    /// One column for each of the model's state names.
-    pub state: &'a [&'a [f64]],
-    /// Columns to which the state after the strain is written.
-    pub next_state: &'a mut [&'a mut [f64]],
-    /// K_xx/k, K_yy/k, K_xy/k.
-    pub conductivity: Option<[&'a mut [f64]; 3]>,
-    /// σ_xx, σ_yy, σ_xy, reduced.
-    pub stress: Option<[&'a mut [f64]; 3]>,
-    /// One column for each state name and then one for the strain: as [`Answer::outside`].
-    pub outside: Option<&'a mut [&'a mut [f64]]>,
-    /// As [`Tangent`], row by row.
-    pub tangent: Option<[&'a mut [f64]; 9]>,
-}
-
-/// Evaluates a batch; returns the number of cells outside of the trained range. The answer for a cell depends neither
-/// on its place nor on the size of the batch.
-///
-/// # Panics
-/// When columns are missing or differ in length from `strain`.
-pub fn evaluate_batch(model: &dyn Surrogate, batch: &mut Batch) -> usize {
-    let names = model.state_names().len();
-    assert!(batch.state.len() == names && batch.next_state.len() == names, "{names} state columns");
-    let cells = batch.strain.len();
-    let (mut count, mut answer) = (0, Answer::default());
-    let (mut state, mut strain) = ([[0.0; LANES]; MAX_STATE], [0.0; LANES]);
-    let mut tangent = Tangent::default();
-    for first in (0..cells).step_by(LANES) {
-        let here = first..cells.min(first + LANES);
-        let read = |column: &[f64], lanes: &mut Lanes| match column[first..].first_chunk::<LANES>() {
-            Some(full) => lanes.copy_from_slice(full),
-            // The last block may be incomplete: its last cell fills the remaining lanes.
-            None => *lanes = std::array::from_fn(|lane| column[(first + lane).min(cells - 1)]),
-        };
-        for (lanes, column) in state.iter_mut().zip(batch.state) {
-            read(column, lanes);
-        }
-        read(batch.strain, &mut strain);
-        let wanted = batch.tangent.is_some().then_some(&mut tangent);
-        model.advance(&state, &Increment::thermal(&strain), &mut answer, wanted);
-        let write = |column: &mut [f64], lanes: &Lanes| match column[first..].first_chunk_mut::<LANES>() {
-            Some(full) => full.copy_from_slice(lanes),
-            None => column[here.clone()].copy_from_slice(&lanes[..here.len()]),
-        };
-        for (column, lanes) in batch.next_state.iter_mut().zip(&answer.state) {
-            write(column, lanes);
-        }
-        for (columns, values) in
-            [(&mut batch.conductivity, &answer.conductivity), (&mut batch.stress, &answer.stress)]
-        {
-            for (column, lanes) in columns.iter_mut().flatten().zip(values) {
-                write(column, lanes);
-            }
-        }
-        if let Some(columns) = &mut batch.outside {
-            let strain = &answer.outside[MAX_STATE];
-            for (column, lanes) in columns.iter_mut().zip(answer.outside[..names].iter().chain([strain])) {
-                write(column, lanes);
-            }
-        }
-        for (column, lanes) in batch.tangent.iter_mut().flatten().zip(tangent.as_flattened()) {
-            write(column, lanes);
-        }
-        count += answer.lanes_outside()[..here.len()].iter().filter(|outside| **outside).count();
-    }
-    count
 }

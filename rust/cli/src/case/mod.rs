@@ -12,8 +12,8 @@ mod table;
 
 use crate::error::CliError;
 use clap::Subcommand;
-pub(crate) use new::checkout;
-pub(crate) use solve::{attempt, beside};
+pub use new::checkout;
+pub use solve::{attempt, beside};
 
 #[derive(Subcommand)]
 pub enum Command {

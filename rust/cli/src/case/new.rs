@@ -197,7 +197,7 @@ fn packed(scene: &DiscCase, arguments: &Arguments) -> Result<msdd_case::packing:
 
 /// The checkout with the solver: the one that was named, else the one that contains this program, else the one that it was
 /// compiled in.
-pub(crate) fn checkout(named: Option<&Path>) -> Result<PathBuf, CliError> {
+pub fn checkout(named: Option<&Path>) -> Result<PathBuf, CliError> {
     let is_checkout = |folder: &Path| folder.join("scripts/foam-env").is_file();
     let missing = |folder: &Path| {
         let folder = folder.display();

@@ -93,7 +93,7 @@ struct Wanted {
 }
 
 /// A folder next to the case.
-pub(crate) fn beside(scene: &UserCase, ending: &str) -> PathBuf {
+pub fn beside(scene: &UserCase, ending: &str) -> PathBuf {
     let name = scene.folder.file_name().unwrap_or_default().to_string_lossy();
     scene.folder.with_file_name(format!("{name}.{ending}"))
 }
@@ -263,7 +263,7 @@ fn short(value: f64) -> String {
 }
 
 /// Makes the case of a combination in a folder, and runs it.
-pub(crate) fn attempt(
+pub fn attempt(
     scene: &UserCase,
     settings: &Settings,
     range: Option<f64>,

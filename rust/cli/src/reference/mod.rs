@@ -1,11 +1,6 @@
 //! `msdd reference`: simulates the whole box of a case by DEM.
 
-mod bands;
-mod beds;
 mod compare;
-mod ranges;
-mod requests;
-mod scenes;
 mod summary;
 
 use crate::confirm;
@@ -47,15 +42,6 @@ pub enum Command {
     /// Print the differences of a run of the solver from DEM in the temperatures at the probes. Results with
     /// grains other than in the case are refused; another start is a warning.
     Compare(compare::Arguments),
-    /// Make the reference scenes of a plan, and compare the solver with them.
-    Scenes(scenes::Arguments),
-    /// Compare the solver with beds of spheres of a plan, packing by packing.
-    ///
-    /// Each run starts from the start of its DEM. Prints how far the solver is from them, and how far packings
-    /// are from each other.
-    Beds(beds::Arguments),
-    /// Find the ranges of the scenes and beds by which the default models are compared with DEM.
-    Ranges(ranges::Arguments),
 }
 
 /// How a box is closed.
@@ -168,9 +154,6 @@ pub fn run(command: &Command) -> Result<(), CliError> {
         Command::Fields(arguments) => write_fields(arguments),
         Command::Summary(arguments) => summary::run(arguments),
         Command::Compare(arguments) => compare::run(arguments),
-        Command::Scenes(arguments) => scenes::run(arguments),
-        Command::Beds(arguments) => beds::run(arguments),
-        Command::Ranges(arguments) => ranges::run(arguments),
     }
 }
 

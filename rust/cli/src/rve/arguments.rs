@@ -129,27 +129,6 @@ pub struct HomogeniseArguments {
     pub cut: CutName,
 }
 
-#[derive(Args)]
-#[command(
-    after_help = "Two opposite walls have different temperatures, the other two are insulated. Prints three conductivities over \
-that of the grains, k: k_measured (heat flux over the temperature gradient in the inner part), and, averaged over windows of the \
-inner part, k_affine (Eq. 9 of the paper) and k_network (resistor network of the contacts solved)."
-)]
-pub struct HeatCheckArguments {
-    /// State file.
-    #[arg(long, value_name = "FILE")]
-    pub state: PathBuf,
-    /// Direction of the temperature difference.
-    #[arg(long, value_enum, default_value_t = AxisName::X)]
-    pub axis: AxisName,
-}
-
-#[derive(Clone, Copy, ValueEnum)]
-pub enum AxisName {
-    X,
-    Y,
-}
-
 #[derive(Clone, Copy, ValueEnum)]
 pub enum CompressionName {
     Isotropic,

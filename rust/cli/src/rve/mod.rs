@@ -5,17 +5,17 @@ mod spheres;
 
 use crate::output::print_json;
 use arguments::{
-    AxisName, BoundaryName, CompressionName, CutName, ExpandArguments, HeatCheckArguments,
-    HomogeniseArguments, PackArguments, RegionName, RelaxationName, strains,
+    BoundaryName, CompressionName, CutName, ExpandArguments, HomogeniseArguments, PackArguments, RegionName,
+    RelaxationName, strains,
 };
 
 use crate::error::CliError;
 use clap::Subcommand;
 use msdd_files::{check_target, read_text, write};
 use msdd_rve::{
-    Averages, Axis, Boundary, Compression, Cut, Material, PackingSpec, Preparation, Protocol, RegionKind,
-    Relaxation, RveError, Settled, Simulation, Strains, follow, heat_check, homogenise_in, last_good,
-    pack_watched, region, state, unbalanced_force, vtk,
+    Averages, Boundary, Compression, Cut, Material, PackingSpec, Preparation, Protocol, RegionKind,
+    Relaxation, RveError, Settled, Simulation, Strains, follow, homogenise_in, last_good, pack_watched,
+    region, state, unbalanced_force, vtk,
 };
 use serde_json::json;
 use std::path::Path;
@@ -29,9 +29,6 @@ pub enum Command {
     /// Print the averages of a state as JSON: of spheres the columns of their database, with stresses over E* and
     /// conductivities over solid and gas.
     Homogenise(HomogeniseArguments),
-    /// Measure the conductivity of a packing by conducting heat through all of it, grains at rest; prints it next to the
-    /// homogenised conductivity as JSON.
-    HeatCheck(HeatCheckArguments),
     /// Draw the grains of a state and the forces between them as SVG, alone or next to a field of the solver.
     Draw(crate::draw::Arguments),
 }
@@ -50,7 +47,6 @@ pub fn run(command: &Command) -> Result<(), CliError> {
         Command::Pack(arguments) => pack_one(arguments),
         Command::Expand(arguments) => expand_one(arguments),
         Command::Homogenise(arguments) => homogenise_one(arguments),
-        Command::HeatCheck(arguments) => check_heat(arguments),
         Command::Draw(arguments) => crate::draw::run(arguments),
     }
 }
@@ -212,15 +208,6 @@ fn homogenise_one(arguments: &HomogeniseArguments) -> Result<(), CliError> {
     let averages = homogenise_in(&simulation, &region::region(&simulation, kind), cut);
     let json = as_json(&averages, unbalanced_force(&simulation));
     print_json(&json)
-}
-
-fn check_heat(arguments: &HeatCheckArguments) -> Result<(), CliError> {
-    let axis = match arguments.axis {
-        AxisName::X => Axis::X,
-        AxisName::Y => Axis::Y,
-    };
-    let check = heat_check(&read_state(&arguments.state)?, axis);
-    print_json(&check)
 }
 
 /// The averages as JSON: conductivities over k; stresses in Pa, compression positive.

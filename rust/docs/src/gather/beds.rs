@@ -8,7 +8,7 @@ use crate::results::Section;
 use std::path::Path;
 
 const FOLDER: &str = "cases/beds";
-const ORIGIN: &str = "msdd reference beds";
+const ORIGIN: &str = "cases/beds/make";
 /// Quantities in `bands.csv`, and as the book names them.
 const QUANTITIES: [(&str, &str); 3] = [("T", "T"), ("pressure", "p"), ("conductivity", "K")];
 /// What scenes are for, in `plan.toml`, and as the book says it.

@@ -1,4 +1,4 @@
-//! Speed of engine, surrogate and solver: what `msdd bench` and `scripts/bench-solver` measured.
+//! Speed of engine, surrogate and solver: what the example `bench` and `scripts/bench-solver` measured.
 
 use crate::error::DocsError;
 use crate::gather::json::{INPUTS, Json};
@@ -6,7 +6,7 @@ use crate::gather::print::{decimals, grouped, two};
 use crate::results::Section;
 use std::path::Path;
 
-/// File of `msdd bench dem`, key, words.
+/// File of `bench dem`, key, words.
 const ENGINE: [(&str, &str, &str); 4] = [
     ("dem_best.json", "engine", "widest vectors of the machine"),
     ("dem_avx2.json", "engine_avx2", "AVX2"),
@@ -29,13 +29,13 @@ fn engine(section: &mut Section, root: &Path) -> Result<(), DocsError> {
         let bench = Json::read(root, &format!("{INPUTS}/{file}"))?;
         let best = bench.number("/ns_per_particle_step_best")?;
         let meaning = format!("time of a disc and step, {words}, one thread, fastest block of 500 steps");
-        section.number(key, two(best), "ns", &meaning, "msdd bench dem");
+        section.number(key, two(best), "ns", &meaning, "bench dem");
         let discs = grouped(bench.number("/particles")?);
         rows.push(vec![words.to_string(), bench.text("/simd")?, discs, two(best), two(1e3 / best)]);
     }
     let columns = ["", "instructions", "discs", "ns a disc and step", "million disc-steps a second"];
     let meaning = "speed of the engine on one thread: dense discs that expand, fastest block of 500 steps";
-    section.add_table("speed-engine", meaning, "msdd bench dem", &columns, rows);
+    section.add_table("speed-engine", meaning, "bench dem", &columns, rows);
     Ok(())
 }
 
@@ -50,13 +50,7 @@ fn inference(section: &mut Section, root: &Path) -> Result<(), DocsError> {
         for batch in models.list(&format!("/{name}/batches"))? {
             let (cells, time) = (batch.number("/batch")?, two(batch.number("/ns_per_query")?));
             let meaning = format!("time of a query of model {name} in batches of {cells}");
-            section.number(
-                &format!("query.{name}.{cells}"),
-                time.clone(),
-                "ns",
-                &meaning,
-                "msdd bench inference",
-            );
+            section.number(&format!("query.{name}.{cells}"), time.clone(), "ns", &meaning, "bench inference");
             row.push(time);
             // The paper's network has none.
             if let Ok(time) = batch.number("/ns_per_query_with_tangent") {
@@ -70,7 +64,7 @@ fn inference(section: &mut Section, root: &Path) -> Result<(), DocsError> {
     }
     let columns = ["model", "1 cell [ns a cell]", "64 cells", "3 000 cells", "1 000 000 cells"];
     let meaning = "time of a query by size of the batch, one thread";
-    section.add_table("speed-inference", meaning, "msdd bench inference", &columns, rows);
+    section.add_table("speed-inference", meaning, "bench inference", &columns, rows);
     Ok(())
 }
 

@@ -53,30 +53,83 @@ pub unsafe fn transpose8(r: [__m512d; 8]) -> [__m512d; 8] {
     }
 }
 
-/// Arithmetic of a vector type. It is safe to call, because a value can exist only where the instruction set does (see
-/// [`Lanes`]).
-macro_rules! arithmetic {
-    ($vector:ident, $add:ident $sub:ident $mul:ident $div:ident $sqrt:ident $max:ident $min:ident $splat:ident) => {
-        arithmetic!(@operator $vector Add add $add);
-        arithmetic!(@operator $vector Sub sub $sub);
-        arithmetic!(@operator $vector Mul mul $mul);
-        arithmetic!(@operator $vector Div div $div);
-        impl $vector {
+/// A vector type of that many lanes. Its arithmetic is safe to call, because a value can exist only where the instruction set does
+/// (see [`Lanes`]).
+macro_rules! vector {
+    (
+        $vector:ident: $register:ty, $mask:ty, $lanes:literal;
+        $add:ident $sub:ident $mul:ident $div:ident $sqrt:ident $max:ident $min:ident $splat:ident $read:ident $write:ident;
+        $a:ident > $b:ident: $greater:expr;
+        $chosen:ident: any $any:expr, select($this:ident, $other:ident) $select:expr
+    ) => {
+        vector!(@operator $vector Add add $add);
+        vector!(@operator $vector Sub sub $sub);
+        vector!(@operator $vector Mul mul $mul);
+        vector!(@operator $vector Div div $div);
+
+        impl Vector for $vector {
+            type Mask = $mask;
+
             #[inline(always)]
-            fn root(self) -> Self {
+            fn like(self, value: f64) -> Self {
+                unsafe { Self::splat(value) }
+            }
+            #[inline(always)]
+            fn sqrt(self) -> Self {
                 unsafe { Self($sqrt(self.0)) }
             }
             #[inline(always)]
-            fn larger(self, other: Self) -> Self {
+            fn max(self, other: Self) -> Self {
                 unsafe { Self($max(self.0, other.0)) }
             }
             #[inline(always)]
-            fn smaller(self, other: Self) -> Self {
+            fn min(self, other: Self) -> Self {
                 unsafe { Self($min(self.0, other.0)) }
             }
             #[inline(always)]
-            unsafe fn all(value: f64) -> Self {
+            fn greater(self, other: Self) -> $mask {
+                let ($a, $b) = (self.0, other.0);
+                unsafe { $greater }
+            }
+            #[inline(always)]
+            fn any($chosen: $mask) -> bool {
+                $any
+            }
+            #[inline(always)]
+            fn select($chosen: $mask, this: Self, other: Self) -> Self {
+                let ($this, $other) = (this.0, other.0);
+                unsafe { Self($select) }
+            }
+        }
+
+        impl Lanes for $vector {
+            const LANES: usize = $lanes;
+
+            #[inline(always)]
+            unsafe fn splat(value: f64) -> Self {
                 unsafe { Self($splat(value)) }
+            }
+            #[inline(always)]
+            unsafe fn read(from: *const f64) -> Self {
+                unsafe { Self($read(from)) }
+            }
+            #[inline(always)]
+            unsafe fn write(self, to: *mut f64) {
+                unsafe { $write(to, self.0) }
+            }
+        }
+
+        impl $vector {
+            /// # Safety
+            /// The machine must have the instruction set.
+            #[inline(always)]
+            pub unsafe fn new(register: $register) -> Self {
+                Self(register)
+            }
+            /// The register that holds the lanes.
+            #[inline(always)]
+            pub fn register(self) -> $register {
+                self.0
             }
         }
     };
@@ -95,138 +148,22 @@ macro_rules! arithmetic {
 #[derive(Clone, Copy)]
 pub struct Avx2(__m256d);
 
-arithmetic!(Avx2, _mm256_add_pd _mm256_sub_pd _mm256_mul_pd _mm256_div_pd _mm256_sqrt_pd _mm256_max_pd _mm256_min_pd _mm256_set1_pd);
-
-impl Vector for Avx2 {
-    type Mask = __m256d;
-
-    #[inline(always)]
-    fn like(self, value: f64) -> Self {
-        unsafe { Self::all(value) }
-    }
-    #[inline(always)]
-    fn sqrt(self) -> Self {
-        self.root()
-    }
-    #[inline(always)]
-    fn max(self, other: Self) -> Self {
-        self.larger(other)
-    }
-    #[inline(always)]
-    fn min(self, other: Self) -> Self {
-        self.smaller(other)
-    }
-    #[inline(always)]
-    fn greater(self, other: Self) -> __m256d {
-        unsafe { _mm256_cmp_pd::<_CMP_GT_OQ>(self.0, other.0) }
-    }
-    #[inline(always)]
-    fn any(mask: __m256d) -> bool {
-        unsafe { _mm256_movemask_pd(mask) != 0 }
-    }
-    #[inline(always)]
-    fn select(mask: __m256d, this: Self, other: Self) -> Self {
-        unsafe { Self(_mm256_blendv_pd(other.0, this.0, mask)) }
-    }
-}
-
-impl Lanes for Avx2 {
-    const LANES: usize = 4;
-
-    #[inline(always)]
-    unsafe fn splat(value: f64) -> Self {
-        unsafe { Self::all(value) }
-    }
-    #[inline(always)]
-    unsafe fn read(from: *const f64) -> Self {
-        unsafe { Self(_mm256_loadu_pd(from)) }
-    }
-    #[inline(always)]
-    unsafe fn write(self, to: *mut f64) {
-        unsafe { _mm256_storeu_pd(to, self.0) }
-    }
-}
-
-impl Avx2 {
-    /// # Safety
-    /// The machine must have the instruction set.
-    #[inline(always)]
-    pub unsafe fn new(register: __m256d) -> Self {
-        Self(register)
-    }
-    /// The register that holds the lanes.
-    #[inline(always)]
-    pub fn register(self) -> __m256d {
-        self.0
-    }
+vector! {
+    Avx2: __m256d, __m256d, 4;
+    _mm256_add_pd _mm256_sub_pd _mm256_mul_pd _mm256_div_pd _mm256_sqrt_pd _mm256_max_pd _mm256_min_pd _mm256_set1_pd
+        _mm256_loadu_pd _mm256_storeu_pd;
+    a > b: _mm256_cmp_pd::<_CMP_GT_OQ>(a, b);
+    mask: any unsafe { _mm256_movemask_pd(mask) != 0 }, select(this, other) _mm256_blendv_pd(other, this, mask)
 }
 
 /// Eight lanes.
 #[derive(Clone, Copy)]
 pub struct Avx512(__m512d);
 
-arithmetic!(Avx512, _mm512_add_pd _mm512_sub_pd _mm512_mul_pd _mm512_div_pd _mm512_sqrt_pd _mm512_max_pd _mm512_min_pd _mm512_set1_pd);
-
-impl Vector for Avx512 {
-    type Mask = __mmask8;
-
-    #[inline(always)]
-    fn like(self, value: f64) -> Self {
-        unsafe { Self::all(value) }
-    }
-    #[inline(always)]
-    fn sqrt(self) -> Self {
-        self.root()
-    }
-    #[inline(always)]
-    fn max(self, other: Self) -> Self {
-        self.larger(other)
-    }
-    #[inline(always)]
-    fn min(self, other: Self) -> Self {
-        self.smaller(other)
-    }
-    #[inline(always)]
-    fn greater(self, other: Self) -> __mmask8 {
-        unsafe { _mm512_cmp_pd_mask::<_CMP_GT_OQ>(self.0, other.0) }
-    }
-    #[inline(always)]
-    fn any(mask: __mmask8) -> bool {
-        mask != 0
-    }
-    #[inline(always)]
-    fn select(mask: __mmask8, this: Self, other: Self) -> Self {
-        unsafe { Self(_mm512_mask_mov_pd(other.0, mask, this.0)) }
-    }
-}
-
-impl Lanes for Avx512 {
-    const LANES: usize = 8;
-
-    #[inline(always)]
-    unsafe fn splat(value: f64) -> Self {
-        unsafe { Self::all(value) }
-    }
-    #[inline(always)]
-    unsafe fn read(from: *const f64) -> Self {
-        unsafe { Self(_mm512_loadu_pd(from)) }
-    }
-    #[inline(always)]
-    unsafe fn write(self, to: *mut f64) {
-        unsafe { _mm512_storeu_pd(to, self.0) }
-    }
-}
-
-impl Avx512 {
-    /// # Safety
-    /// The machine must have the instruction set.
-    #[inline(always)]
-    pub unsafe fn new(register: __m512d) -> Self {
-        Self(register)
-    }
-    /// The register that holds the lanes.
-    #[inline(always)]
-    pub fn register(self) -> __m512d {
-        self.0
-    }
+vector! {
+    Avx512: __m512d, __mmask8, 8;
+    _mm512_add_pd _mm512_sub_pd _mm512_mul_pd _mm512_div_pd _mm512_sqrt_pd _mm512_max_pd _mm512_min_pd _mm512_set1_pd
+        _mm512_loadu_pd _mm512_storeu_pd;
+    a > b: _mm512_cmp_pd_mask::<_CMP_GT_OQ>(a, b);
+    mask: any mask != 0, select(this, other) _mm512_mask_mov_pd(other, mask, this)
 }

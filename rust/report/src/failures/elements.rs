@@ -5,8 +5,8 @@ use crate::plan;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
-/// Largest stable time steps of 500 discs \[s\].
-#[derive(Clone, Debug, PartialEq, Serialize)]
+/// Largest stable time steps of 500 discs, as `bench stability` prints them \[s\].
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct StableStep {
     pub porosity: f64,
     /// Predicted by the bound, measured.
@@ -14,7 +14,7 @@ pub struct StableStep {
     pub thermal: [f64; 2],
 }
 
-/// What `msdd bench limits` prints.
+/// What `bench limits`, an example of `rust/cli`, prints.
 #[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Limits {
     pub packings: u64,
@@ -79,7 +79,7 @@ pub const MODELS: [&str; 2] = ["rust/surrogate/models/increment.json", "rust/sur
 
 pub fn stability(quick: bool) -> Job {
     let porosities = if quick { "0.09,0.12" } else { "0.06,0.07,0.08,0.09,0.1,0.12,0.14,0.17" };
-    plan::tool(&format!("bench stability --porosity {porosities}"), &["rust/cli/src/bench"], None, 300)
+    plan::tool(&format!("bench stability --porosity {porosities}"), &["rust/cli/examples/bench"], None, 300)
 }
 
 pub fn limits(quick: bool) -> Job {
@@ -87,32 +87,10 @@ pub fn limits(quick: bool) -> Job {
     let packings = if quick { 1 } else { 8 };
     let run =
         format!("bench limits --packings {packings} --model {first} --model {second} --out WORK/limits.json");
-    plan::tool(&run, &["rust/cli/src/bench", "rust/surrogate/src", first, second], Some("limits.json"), 600)
-}
-
-/// Reads lines such as "porosity 0.06  1.011e-3  1.051e-3  1.04  4.973e-4  4.934e-4  0.99".
-pub fn stable_steps(printed: &str) -> Vec<StableStep> {
-    let line = |line: &str| -> Option<StableStep> {
-        let numbers: Vec<f64> =
-            line.strip_prefix("porosity")?.split_whitespace().map_while(|w| w.parse().ok()).collect();
-        let &[porosity, mp, mm, _, tp, tm, _] = numbers.as_slice() else { return None };
-        Some(StableStep { porosity, mechanical: [mp, mm], thermal: [tp, tm] })
-    };
-    printed.lines().filter_map(line).collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn stable_steps_are_read() {
-        let steps = stable_steps(
-            "largest ...\nporosity 0.06          1.011e-3   1.051e-3   1.04      4.973e-4  4.934e-4   0.99\n",
-        );
-        assert_eq!(
-            steps,
-            [StableStep { porosity: 0.06, mechanical: [1.011e-3, 1.051e-3], thermal: [4.973e-4, 4.934e-4] }]
-        );
-    }
+    plan::tool(
+        &run,
+        &["rust/cli/examples/bench", "rust/surrogate/src", first, second],
+        Some("limits.json"),
+        600,
+    )
 }

@@ -57,7 +57,7 @@ pub fn read(settings: &Settings, records: &Records) -> Result<Failures, ReportEr
     Ok(Failures {
         rows: rows::read(settings, records)?,
         stable_steps: done(&elements::stability(settings.quick))
-            .map(|r| elements::stable_steps(&r.printed))
+            .and_then(|r| serde_json::from_str(&r.printed).ok())
             .unwrap_or_default(),
         limits: done(&elements::limits(settings.quick))
             .and_then(|r| serde_json::from_str(r.file.as_deref()?).ok()),

@@ -91,6 +91,8 @@ pub struct Place {
     pub lock: Option<Arc<Lock>>,
 }
 
+/// The example of `rust/cli` that stands for `msdd` where a job's arguments begin with its name.
+const BENCH: &str = "bench";
 /// Separates the arguments of two commands of one job, which run one after the other.
 pub const THEN: &str = "THEN";
 /// Largest number of characters of a message that are kept.
@@ -287,9 +289,15 @@ fn run_tool(place: &Place, job: &Job, tool: &ToolJob, folder: &Path) -> Result<R
     let log = folder.join("log");
     let work = folder.display().to_string();
     let command = |arguments: &[String]| {
+        let (program, arguments) = match arguments.split_first() {
+            Some((name, others)) if name == BENCH => {
+                (&place.msdd.with_file_name("examples").join(BENCH), others)
+            }
+            _ => (&place.msdd, arguments),
+        };
         let quoted: Vec<String> =
             arguments.iter().map(|a| format!("'{}'", a.replace("WORK", &work))).collect();
-        format!("'{}' {}", place.msdd.display(), quoted.join(" "))
+        format!("'{}' {}", program.display(), quoted.join(" "))
     };
     let commands: Vec<String> = tool.arguments.split(|a| a == THEN).map(command).collect();
     // Tools take paths relative to the checkout.

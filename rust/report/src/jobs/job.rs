@@ -133,7 +133,7 @@ pub struct SpheresJob {
     pub limit: u64,
 }
 
-/// A run of `msdd`, whose result is its output.
+/// A run of `msdd`, or of its example `bench`, whose result is its output.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ToolJob {
     /// Arguments of `msdd`; `WORK` stands for the folder of the job.

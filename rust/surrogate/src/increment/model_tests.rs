@@ -1,10 +1,9 @@
-//! Tests of the model as a whole: wild inputs, floating-point exceptions, turns, instruction sets, batches, files.
+//! Tests of the model as a whole: wild inputs, floating-point exceptions, turns, instruction sets, blocks, files.
 
 use super::*;
 use crate::increment::synthetic;
 use crate::increment::training::train;
 use crate::kernel::{Lanes, with_every_set};
-use crate::surrogate::{Batch, evaluate_batch};
 use crate::training_data::TrainingData;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
@@ -235,7 +234,7 @@ fn a_cell_that_only_turns_keeps_its_stress_along_the_grains() {
 }
 
 #[test]
-fn every_instruction_set_and_every_place_in_any_batch_gives_the_same_bits() {
+fn every_instruction_set_and_every_place_in_a_block_gives_the_same_bits() {
     let (model, mut random) = (shipped(), ChaCha8Rng::seed_from_u64(5));
     for _ in 0..500 {
         let (state, strain) = wild(&mut random);
@@ -247,36 +246,21 @@ fn every_instruction_set_and_every_place_in_any_batch_gives_the_same_bits() {
         });
         assert!(answers.windows(2).all(|pair| pair[0] == pair[1]), "{state:?} {strain:?}");
     }
-    let cells = 19;
-    let blocks: Vec<_> = (0..2).map(|_| wild(&mut random)).collect();
-    let cell = |i: usize, k: usize| blocks[i / LANES].0[k][i % LANES];
-    let strain: Vec<f64> = (0..cells).map(|i| blocks[i / LANES].1.thermal[i % LANES]).collect();
-    let columns: Vec<Vec<f64>> = (0..COLUMNS).map(|k| (0..cells).map(|i| cell(i, k)).collect()).collect();
-    for first in 0..cells {
-        for last in first + 1..=cells {
-            let from: Vec<&[f64]> = columns.iter().map(|column| &column[first..last]).collect();
-            let mut to = vec![vec![0.0; last - first]; COLUMNS];
-            let mut next: Vec<&mut [f64]> = to.iter_mut().map(Vec::as_mut_slice).collect();
-            let mut tangents = vec![vec![0.0; last - first]; 9];
-            let mut tangent = tangents.iter_mut().map(Vec::as_mut_slice);
-            let mut batch = Batch {
-                strain: &strain[first..last],
-                state: &from,
-                next_state: &mut next,
-                conductivity: None,
-                stress: None,
-                outside: None,
-                tangent: Some(std::array::from_fn(|_| tangent.next().expect("nine"))),
-            };
-            evaluate_batch(&model, &mut batch);
-            for i in first..last {
-                let state: StateLanes = std::array::from_fn(|k| [cell(i, k); LANES]);
-                let (mut alone, mut slope) = (Answer::default(), Tangent::default());
-                model.advance(&state, &Increment::thermal(&[strain[i]; LANES]), &mut alone, Some(&mut slope));
-                let same = |a: f64, b: f64| a.to_bits() == b.to_bits();
-                assert!((0..COLUMNS).all(|k| same(to[k][i - first], alone.state[k][0])));
-                assert!((0..9).all(|k| same(tangents[k][i - first], slope.as_flattened()[k][0])));
-            }
+    for first in 0..4 * LANES {
+        let (state, strain) = wild(&mut random);
+        // The cells of the block, each in another lane.
+        let turned = |column: &Lanes| std::array::from_fn(|lane| column[(lane + first) % LANES]);
+        let (mut block, mut tangent) = (Answer::default(), Tangent::default());
+        let thermal = Increment::thermal(&turned(&strain.thermal));
+        model.advance(&state.each_ref().map(turned), &thermal, &mut block, Some(&mut tangent));
+        for lane in 0..LANES {
+            let cell = (lane + first) % LANES;
+            let (mut alone, mut slope) = (Answer::default(), Tangent::default());
+            let thermal = Increment::thermal(&[strain.thermal[cell]; LANES]);
+            model.advance(&state.map(|column| [column[cell]; LANES]), &thermal, &mut alone, Some(&mut slope));
+            let same = |(a, b): (&Lanes, &Lanes)| a[lane].to_bits() == b[0].to_bits();
+            assert!(block.state.iter().zip(&alone.state).all(same));
+            assert!(tangent.as_flattened().iter().zip(slope.as_flattened()).all(same));
         }
     }
 }

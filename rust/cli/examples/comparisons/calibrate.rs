@@ -1,6 +1,6 @@
 //! Fits the numbers of the bands to scenes with several packings, of which discs and solver are known.
 
-use crate::bands::{LEVEL, Numbers, Units};
+use msdd_autotune::bands::{LEVEL, Numbers, Units};
 use std::collections::BTreeMap;
 
 /// One value of one packing.

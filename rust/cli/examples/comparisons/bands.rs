@@ -1,17 +1,16 @@
 //! The error bands of the solver: fitted to the reference scenes, and judged by them.
 
-use crate::case::{attempt, beside};
-use crate::error::CliError;
+use crate::calibrate::{Coverage, Row, coverage, fit, quantile};
+use crate::dem::{PlannedScene, SceneResults};
 use msdd_autotune::ChoiceError;
 use msdd_autotune::bands::{CONDUCTIVITY, LEVEL, Law, Lengths, Numbers, Units, sensitivity};
-use msdd_autotune::calibrate::{Coverage, Row, coverage, fit, quantile};
 use msdd_autotune::quantity::Quantity;
 use msdd_autotune::series::Series;
 use msdd_autotune::settings::{Level, Settings};
 use msdd_autotune::trial::{self, Outcome};
 use msdd_autotune::user_case::UserCase;
 use msdd_case::numbers::plain;
-use msdd_dem_reference::scenes::{PlannedScene, SceneResults};
+use msdd_cli::shared::{CliError, attempt, beside};
 use msdd_files::{Column, Lock, names, write};
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -92,7 +91,7 @@ impl Windows {
 }
 
 /// One run of the solver in a case folder, on the mesh of the case.
-pub(super) fn run(scene: &UserCase, range: f64, conductivity: f64) -> Result<Outcome, ChoiceError> {
+pub fn run(scene: &UserCase, range: f64, conductivity: f64) -> Result<Outcome, ChoiceError> {
     let levels = vec![Level::Halved(0); scene.directions().len()];
     let settings = Settings { conductivity, ..Settings::new(levels, TOLERANCE, true) };
     let folder = beside(scene, "trial");
@@ -167,7 +166,7 @@ fn rows(
 
 /// Fits the bands to the scenes for calibration and writes their numbers; prints how they do, and writes that into the folder `table`.
 pub fn calibrate(all: &[Done], numbers: &Path, table: Option<&Path>) -> Result<Law, CliError> {
-    outln!("error bands: the solver in {} scenes, with two conductivities", all.len());
+    println!("error bands: the solver in {} scenes, with two conductivities", all.len());
     let mut found = Found::new();
     for (number, (scene, packings)) in all.iter().enumerate() {
         let range = scene.case()?.temperature_range();
@@ -227,7 +226,7 @@ pub fn print_coverage(
     folder: Option<&Path>,
 ) -> Result<(), CliError> {
     let mut csv = names(&COLUMNS).join(",") + "\n";
-    outln!(
+    println!(
         "\n90 % bands: share of the values inside, of all scenes and of the worst; width over twice the scatter"
     );
     for (name, quantities) in groups {
@@ -241,7 +240,7 @@ pub fn print_coverage(
             let values: Vec<String> = [inside, worst, width].into_iter().map(plain).collect();
             let _ = writeln!(csv, "{name},{purpose},{},{}", rows.len(), values.join(","));
         }
-        outln!("{line}");
+        println!("{line}");
     }
     if let Some(folder) = folder {
         write(&folder.join("bands.csv"), csv.as_bytes())?;

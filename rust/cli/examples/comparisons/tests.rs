@@ -1,8 +1,8 @@
 //! The shipped scenes: their plan, their tables, and one of them computed again.
 
-use msdd_dem_reference::scenes::data::{TABLES, lines, read};
-use msdd_dem_reference::scenes::discs::{packed, simulate};
-use msdd_dem_reference::scenes::{Plan, Use};
+use crate::dem::data::{TABLES, lines, read};
+use crate::dem::discs::{packed, simulate};
+use crate::dem::{Plan, Use};
 use msdd_rve::state;
 use std::path::PathBuf;
 
@@ -23,7 +23,7 @@ fn half_of_the_scenes_calibrate_and_half_judge() {
     assert!(count(Use::Outside) >= 6);
     assert!(plan.scenes.iter().all(|scene| scene.seeds.len() == 3));
     let inside = plan.scenes.iter().filter(|scene| scene.purpose != Use::Outside);
-    let unusual = |scene: &&msdd_dem_reference::scenes::PlannedScene| {
+    let unusual = |scene: &&crate::dem::PlannedScene| {
         scene.friction.is_some() || scene.radii != msdd_case::packing::RADIUS_RANGE
     };
     assert_eq!(
@@ -90,7 +90,7 @@ fn a_scene_computed_again_gives_the_shipped_rows() {
 #[test]
 fn a_plan_that_is_wrong_is_refused_by_file_scene_key_value_and_range() {
     let good = std::fs::read_to_string(folder().join("plan.toml")).unwrap();
-    let file = PathBuf::from(env!("CARGO_TARGET_TMPDIR")).join("plan.toml");
+    let file = std::env::temp_dir().join(format!("msdd-plan-{}.toml", std::process::id()));
     for (from, to, problem) in [
         ("seeds = [11, 12, 13]", "seeds = [11, 12, 21]", "scene all-cold-isotropic: seeds = 21, allowed:"),
         ("seeds = [11, 12, 13]", "seeds = [11]", "scene all-hot: seeds = 1, allowed: two at least"),
@@ -103,6 +103,7 @@ fn a_plan_that_is_wrong_is_refused_by_file_scene_key_value_and_range() {
     ] {
         std::fs::write(&file, good.replacen(from, to, 1)).unwrap();
         let error = Plan::read(&file).unwrap_err().to_string();
-        assert!(error.contains(problem) && error.contains("plan.toml"), "{error}");
+        assert!(error.contains(problem) && error.contains("msdd-plan-"), "{error}");
     }
+    std::fs::remove_file(&file).unwrap();
 }

@@ -1,8 +1,7 @@
 //! What is chosen for wanted accuracies in the reference scenes, and how far it is from the discs.
 
-use super::bands::{Done, Windows};
-use crate::case::{attempt, beside};
-use crate::error::CliError;
+use crate::bands::{Done, Windows};
+use crate::dem::SceneResults;
 use msdd_autotune::ChoiceError;
 use msdd_autotune::bands::Law;
 use msdd_autotune::quantity::Quantity;
@@ -12,7 +11,7 @@ use msdd_autotune::settings::{Level, Settings};
 use msdd_autotune::trial::{self, Outcome};
 use msdd_autotune::user_case::UserCase;
 use msdd_case::numbers::plain;
-use msdd_dem_reference::scenes::SceneResults;
+use msdd_cli::shared::{CliError, attempt, beside};
 use msdd_files::{Column, Lock, names, write};
 use msdd_report::studies::requests::{Request, Tally, tallies};
 use std::fmt::Write as _;
@@ -111,7 +110,7 @@ impl Discs {
 /// Asks for [`ASKED`] in each scene, for its first packing, with these bands, and writes what came of it.
 pub fn judge(all: &[Done], law: &Law, file: &Path) -> Result<(), CliError> {
     let failed = |error: ChoiceError| CliError::Message(error.to_string());
-    outln!("requests: {ASKED:?} % in {} scenes", all.len());
+    println!("requests: {ASKED:?} % in {} scenes", all.len());
     let mut csv = names(&COLUMNS).join(",") + "\n";
     for (planned, packings) in all {
         let Some((results, folder)) = packings.first() else { continue };
@@ -179,7 +178,7 @@ pub fn judge(all: &[Done], law: &Law, file: &Path) -> Result<(), CliError> {
                     let cheapest = if cheapest.is_finite() { plain(cheapest) } else { String::new() };
                     let texts: Vec<String> = numbers.into_iter().map(plain).collect();
                     let _ = writeln!(csv, "{head},,{},{cheapest}", texts.join(","));
-                    outln!(
+                    println!(
                         "{:25} {asked} %: estimate {:.2} (numerical {estimate:.2}), true {:.2}, discs {:.2}",
                         planned.name,
                         found.total(),
@@ -191,7 +190,7 @@ pub fn judge(all: &[Done], law: &Law, file: &Path) -> Result<(), CliError> {
                     let best = missed.first().map_or(f64::NAN, |one| one.best);
                     let could = others.iter().map(|other| other.0).fold(f64::INFINITY, f64::min);
                     let _ = writeln!(csv, "{head},{},,,,{},,,,", plain(best), plain(could));
-                    outln!(
+                    println!(
                         "{:25} {asked} %: refused, best {best:.2}; discs {could:.2}: {reason}",
                         planned.name
                     );
@@ -212,7 +211,7 @@ fn summary(file: &Path) -> Result<(), CliError> {
     for tally in tallies(&requests) {
         let Tally { purpose, asked, kept, met, refused, possible, cost, highest_cost } = tally;
         let [median, most] = [cost, highest_cost].map(|cost| cost.unwrap_or(f64::NAN));
-        outln!(
+        println!(
             "{purpose:10} {asked:>2} %: within {met} of {kept}; refused {refused}, of which {possible} could have been done; cost over the cheapest {median:.2} in the median, {most:.2} at most"
         );
     }

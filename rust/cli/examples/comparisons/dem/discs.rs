@@ -1,13 +1,13 @@
 //! One packing of a scene by DEM, and what is recorded of it: T around the probes, and averages over windows.
 
-use crate::model::{Model, pack, statistics};
-use crate::observe::{MARGIN, PROBE_WINDOW, mean_temperature};
-use crate::results::Table;
-use crate::run::Watch;
-use crate::scenes::plan::{Plan, PlannedScene};
-use crate::{ReferenceError, RunSpec, run};
+use super::plan::{Plan, PlannedScene};
 use msdd_case::packing::{Packing, Spread};
 use msdd_dem::Simulation;
+use msdd_dem_reference::model::{Model, pack, statistics};
+use msdd_dem_reference::observe::{MARGIN, PROBE_WINDOW, mean_temperature};
+use msdd_dem_reference::results::Table;
+use msdd_dem_reference::run::Watch;
+use msdd_dem_reference::{ReferenceError, RunSpec, run};
 use msdd_files::{Column, read_text};
 use msdd_rve::{Averages, window};
 use serde::{Deserialize, Serialize};

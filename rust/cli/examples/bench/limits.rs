@@ -1,8 +1,7 @@
-//! `msdd bench limits`: how slowly RVEs have to be packed and strained, and how well models follow them as contacts open.
+//! `bench limits`: how slowly RVEs have to be packed and strained, and how well models follow them as contacts open.
 
-use crate::error::CliError;
-use crate::progress::Progress;
 use clap::Args;
+use msdd_cli::shared::CliError;
 use msdd_files::{read_text, write};
 use msdd_rve::settle::{Outcome, UNBALANCED_LIMIT};
 use msdd_rve::{
@@ -53,7 +52,6 @@ const INCREMENTS: usize = 200;
 pub fn run(arguments: &Arguments) -> Result<(), CliError> {
     let models = arguments.model.iter().map(|file| read_model(file)).collect::<Result<Vec<_>, CliError>>()?;
     let count = arguments.packings;
-    let mut progress = Progress::new("packings", count);
     let (mut rates, mut balances, mut speeds, mut unjamming) = (vec![], vec![], vec![], vec![]);
     for seed in 1..=count {
         speeds.push(SPEEDS.map(|speed| packed(seed, Some(speed))));
@@ -61,9 +59,7 @@ pub fn run(arguments: &Arguments) -> Result<(), CliError> {
         rates.push(by_rate(&packing)?);
         balances.push(by_balance(&packing)?);
         unjamming.push(unjammed(&packing, &models)?);
-        progress.set(seed, count, "");
     }
-    progress.finish();
     let names: Vec<&str> = models.iter().map(|model| model.name()).collect();
     let result = json!({
         "packings": count,
@@ -75,7 +71,7 @@ pub fn run(arguments: &Arguments) -> Result<(), CliError> {
     let text = serde_json::to_string_pretty(&result).map_err(|e| CliError::Message(e.to_string()))?;
     match &arguments.out {
         Some(file) => write(file, text.as_bytes())?,
-        None => outln!("{text}"),
+        None => println!("{text}"),
     }
     Ok(())
 }

@@ -1,17 +1,15 @@
-//! `msdd reference scenes`: makes the reference scenes of a plan, and sets the solver next to them.
+//! `comparisons scenes`: makes the reference scenes of a plan, and sets the solver next to them.
 
-use super::bands::{self, Done};
-use super::requests;
-use crate::case::checkout;
-use crate::error::CliError;
-use crate::rve::{read_state, write_state};
+use crate::bands::{self, Done};
+use crate::dem::discs::{packed, packing_of, simulate};
+use crate::dem::table::{Row, row};
+use crate::dem::{Plan, PlannedScene, SceneResults, data};
+use crate::requests;
 use clap::Args;
 use msdd_autotune::bands::Law;
 use msdd_autotune::bed::Grains;
 use msdd_case::folder;
-use msdd_dem_reference::scenes::discs::{packed, packing_of, simulate};
-use msdd_dem_reference::scenes::table::{Row, row};
-use msdd_dem_reference::scenes::{Plan, PlannedScene, SceneResults, data};
+use msdd_cli::shared::{CliError, checkout, read_state, threads_parser, write_state};
 use msdd_dem_reference::{ReferenceError, fields};
 use msdd_files::write;
 use std::path::{Path, PathBuf};
@@ -20,7 +18,7 @@ use std::time::Instant;
 
 #[derive(Args)]
 #[command(
-    after_help = "Example: msdd reference scenes --plan cases/scenes/plan.toml --out results/scenes --solver
+    after_help = "Example: comparisons scenes --plan cases/scenes/plan.toml --out results/scenes --solver
 What is there already is not made again; results of a scene that has changed in the plan are replaced."
 )]
 pub struct Arguments {
@@ -50,7 +48,7 @@ pub struct Arguments {
     #[arg(long, value_name = "DIR", conflicts_with = "only")]
     tables: Option<PathBuf>,
     /// Number of threads; the results do not depend on it.
-    #[arg(long, default_value_t = 1, value_parser = crate::threads::parser())]
+    #[arg(long, default_value_t = 1, value_parser = threads_parser())]
     threads: u32,
     /// MSDD's checkout, whose solver the case folders run. Default: the one that this program was built in.
     #[arg(long, value_name = "DIR")]
@@ -105,7 +103,7 @@ fn begin(folder: &Path, plan: &Plan, scene: &PlannedScene) -> Result<(), CliErro
         return Ok(());
     }
     for seed in file.exists().then_some(&scene.seeds).into_iter().flatten() {
-        outln!("{}, seed {seed}: the plan has changed, begun anew", scene.name);
+        println!("{}, seed {seed}: the plan has changed, begun anew", scene.name);
         for file in [state_file(folder, *seed), result_file(folder, *seed)] {
             let _ = std::fs::remove_file(file);
         }
@@ -145,7 +143,7 @@ fn discs(
     let packed = begin.elapsed().as_secs_f64();
     let results = simulate(plan, scene, &start, seed, threads)?;
     write(&result, serde_json::to_string(&results).map_err(ReferenceError::from)?.as_bytes())?;
-    outln!(
+    println!(
         "{}, seed {seed}: {} discs packed in {packed:.1} s, run in {:.1} s",
         scene.name,
         start.discs.len(),
@@ -183,7 +181,7 @@ fn write_case(
 }
 
 /// Runs the solver in a case folder, always anew, since the solver may have changed; the message if it fails.
-pub(super) fn solve(folder: &Path, checkout: &Path) -> Result<(), String> {
+pub fn solve(folder: &Path, checkout: &Path) -> Result<(), String> {
     let mut program = Command::new("bash");
     program.arg("Allrun").current_dir(folder).env("MSDD", checkout).stdin(Stdio::null());
     let output = program.output().map_err(|error| format!("cannot start bash: {error}"))?;
@@ -194,27 +192,20 @@ pub(super) fn solve(folder: &Path, checkout: &Path) -> Result<(), String> {
 }
 
 fn print_table(all: &[Done], checkout: &Path) -> Result<(), CliError> {
-    outln!(
+    println!(
         "T: at the probes, in % of the scene's range of T; p: mean of the box, in % of the scene's largest p"
     );
-    outln!("differences of solver and discs, and standard deviations between packings: mean and largest");
-    outln!(
+    println!("differences of solver and discs, and standard deviations between packings: mean and largest");
+    println!(
         "{:25} {:9} {:>5} {:>7}  {:>13}  {:>13}  {:>13}  {:>13}",
-        "scene",
-        "use",
-        "discs",
-        "range",
-        "T",
-        "T scatter",
-        "p",
-        "p scatter"
+        "scene", "use", "discs", "range", "T", "T scatter", "p", "p scatter"
     );
     for (scene, packings) in all {
         let head = format!("{:25} {:9}", scene.name, scene.purpose.as_str());
         let failed: Vec<String> =
             packings.iter().filter_map(|(_, folder)| solve(folder, checkout).err()).collect();
         if let Some(problem) = failed.first() {
-            outln!("{head} the solver failed in {} of {}: {problem}", failed.len(), packings.len());
+            println!("{head} the solver failed in {} of {}: {problem}", failed.len(), packings.len());
             continue;
         }
         let range = scene.case()?.temperature_range();
@@ -223,7 +214,7 @@ fn print_table(all: &[Done], checkout: &Path) -> Result<(), CliError> {
         let Row { temperature, temperature_scatter, pressure, pressure_scatter } = row(&list, range)?;
         let sizes = [temperature, temperature_scatter, pressure, pressure_scatter];
         let cells = sizes.map(|size| format!("{:>6.2} {:>6.2}", size.mean, size.worst));
-        outln!("{head} {:>5} {range:>7}  {}", list[0].0.packing.rows[0][0], cells.join("  "));
+        println!("{head} {:>5} {range:>7}  {}", list[0].0.packing.rows[0][0], cells.join("  "));
     }
     Ok(())
 }

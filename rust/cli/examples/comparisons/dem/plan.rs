@@ -1,7 +1,5 @@
 //! The plan of the scenes: a TOML file with one `[[scenes]]` block each.
 
-use crate::ReferenceError;
-use crate::model::{Filling, ModelSpec, SUM_POROSITY};
 use msdd_case::Case;
 use msdd_case::disc_model::DiscModel;
 use msdd_case::grains::Grains;
@@ -9,6 +7,8 @@ use msdd_case::packing::{InitialPacking, POROSITIES, RADIUS_RANGE};
 use msdd_case::scene::{DiscCase, Mechanics, parse_wall, proposed_cells};
 use msdd_case::walls::WallOverTime;
 use msdd_dem::{Material, Thermal};
+use msdd_dem_reference::ReferenceError;
+use msdd_dem_reference::model::{Filling, ModelSpec, SUM_POROSITY};
 use msdd_files::read_text;
 use msdd_rve::Compression;
 use serde::{Deserialize, Serialize};

@@ -1,15 +1,14 @@
-//! `msdd bench inference`: time that a surrogate model needs for a query, that is for one step of one cell.
+//! `bench inference`: time that a surrogate model needs for a query, that is for one step of one cell.
 
-use crate::error::CliError;
-use crate::simd::SimdArgument;
 use clap::Args;
+use msdd_cli::shared::{CliError, SimdArgument};
 use msdd_files::read_text;
 use msdd_surrogate::kernel;
 use msdd_surrogate::kernel::LANES;
 use msdd_surrogate::models;
 use msdd_surrogate::spheres::model::{Answers, Block, SphereModel, Wanted};
 use msdd_surrogate::spheres::state;
-use msdd_surrogate::surrogate::{Batch, InitialData, MAX_STATE, Surrogate, evaluate_batch};
+use msdd_surrogate::surrogate::{Answer, Increment, InitialData, StateLanes, Surrogate, Tangent};
 use serde_json::{Map, Value, json};
 use std::path::PathBuf;
 use std::time::Instant;
@@ -58,7 +57,7 @@ pub fn run(arguments: &Arguments) -> Result<(), CliError> {
     }
     let result = json!({ "simd": kernel::simd(), "models": Value::Object(results) });
     let text = serde_json::to_string_pretty(&result);
-    outln!("{}", text.map_err(|error| CliError::Message(error.to_string()))?);
+    println!("{}", text.map_err(|error| CliError::Message(error.to_string()))?);
     Ok(())
 }
 
@@ -94,26 +93,21 @@ fn discs(model: &dyn Surrogate, cells: usize, queries: usize, with_tangent: bool
         let fabric_index = 0.1 * ((cell % 31) as f64 / 31.0 - 0.5);
         model.initial_state(&InitialData { porosity, fabric_index, ..InitialData::default() })
     };
-    let states: Vec<[f64; MAX_STATE]> = (0..cells).map(start).collect();
-    let names = model.state_names().len();
-    let from: Vec<Vec<f64>> = (0..names).map(|k| states.iter().map(|state| state[k]).collect()).collect();
-    let (mut to, mut outputs) = (from.clone(), vec![vec![0.0; cells]; 15]);
-    let strain: Vec<f64> = (0..cells).map(strain).collect();
-    let from: Vec<&[f64]> = from.iter().map(Vec::as_slice).collect();
+    let block = |first: usize| {
+        let (mut state, mut thermal) = (StateLanes::default(), [0.0; LANES]);
+        for (lane, cell) in (first..first + LANES).enumerate() {
+            state.iter_mut().zip(start(cell)).for_each(|(column, value)| column[lane] = value);
+            thermal[lane] = strain(cell);
+        }
+        (state, Increment::thermal(&thermal))
+    };
+    let blocks: Vec<(StateLanes, Increment)> = (0..cells).step_by(LANES).map(block).collect();
+    let (mut answer, mut tangent) = (Answer::default(), Tangent::default());
     nanoseconds(cells, queries, || {
-        let mut next: Vec<&mut [f64]> = to.iter_mut().map(Vec::as_mut_slice).collect();
-        let mut columns = outputs.iter_mut().map(Vec::as_mut_slice);
-        let mut three = || std::array::from_fn(|_| columns.next().unwrap_or_default());
-        let mut batch = Batch {
-            strain: &strain,
-            state: &from,
-            next_state: &mut next,
-            conductivity: Some(three()),
-            stress: Some(three()),
-            outside: None,
-            tangent: with_tangent.then(|| std::array::from_fn(|_| columns.next().unwrap_or_default())),
-        };
-        std::hint::black_box(evaluate_batch(model, &mut batch));
+        for (state, strain) in &blocks {
+            model.advance(state, strain, &mut answer, with_tangent.then_some(&mut tangent));
+            std::hint::black_box((&answer, &tangent));
+        }
     })
 }
 

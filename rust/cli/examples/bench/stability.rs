@@ -1,68 +1,41 @@
-//! `msdd bench stability`: the largest stable time steps, predicted and measured.
+//! `bench stability`: the largest stable time steps, predicted and measured.
 
-use crate::error::CliError;
 use clap::Args;
+use msdd_cli::shared::CliError;
 use msdd_dem::{Simulation, Thermal, WallHeat};
 use msdd_rve::{Compression, Material, PackingSpec, pack};
-use std::path::PathBuf;
+use serde_json::{Value, json};
 
 #[derive(Args)]
 #[command(
     after_help = "Mechanical: the packing is shaken a little and runs 4000 steps; a step counts as unstable when the \
 kinetic energy ends above a thousand times that of the shake. Thermal: one disc in two is heated by 1 K and heat \
 flows for 4000 sub-steps; unstable when a temperature leaves the range of discs and walls by 10 K. Both limits by \
-bisection. Shock: walls 100 K above the grains for 500 steps, heat and expansion on, as they stay while the limits are \
-sought."
+bisection. Prints them [s] as JSON: predicted, measured."
 )]
 pub struct Arguments {
     /// Porosities to pack 500 discs to, with commas between. Allowed: 0.01 to 0.3.
     #[arg(long, value_delimiter = ',', default_values_t = [0.06, 0.09, 0.12, 0.17])]
     porosity: Vec<f64>,
-    /// State file to measure as well; may be given several times.
-    #[arg(long, value_name = "FILE")]
-    state: Vec<PathBuf>,
-    /// Measure these states under thermal shock, too.
-    #[arg(long)]
-    shock: bool,
 }
 
 const STEPS: u64 = 4000;
-/// Temperature of the walls above that of the grains [K], and the number of steps after which the limits are sought.
-const SHOCK: f64 = 100.0;
-const SHOCK_STEPS: u64 = 500;
 /// The measured limit is sought between these factors times the predicted one, by so many bisections.
 const FACTORS: [f64; 2] = [0.5, 2.0];
 const BISECTIONS: u32 = 6;
 
 pub fn run(arguments: &Arguments) -> Result<(), CliError> {
-    outln!("largest stable step [s]       mechanical                       thermal");
-    outln!("                      predicted  measured  ratio     predicted  measured  ratio");
-    for &porosity in &arguments.porosity {
+    let rows = arguments.porosity.iter().map(|&porosity| {
         let (discs, compression) = (500, Compression::Isotropic);
         let spec = PackingSpec { discs, seed: 1, porosity, compression, ..PackingSpec::default() };
-        let packed = pack(&spec, &Material::default())?;
-        line(&format!("porosity {porosity}"), &packed.simulation);
-    }
-    for path in &arguments.state {
-        let name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-        let state = crate::rve::read_state(path)?;
-        line(&name, &state);
-        if arguments.shock {
-            line(&format!("{name}, shock"), &shocked(state)?);
-        }
-    }
+        Ok(row(porosity, &pack(&spec, &Material::default())?.simulation))
+    });
+    println!("{:#}", Value::Array(rows.collect::<Result<_, CliError>>()?));
     Ok(())
 }
 
-/// The state after a thermal shock has begun.
-fn shocked(mut simulation: Simulation) -> Result<Simulation, CliError> {
-    let hottest = simulation.discs.iter().map(|d| d.temperature).fold(f64::NEG_INFINITY, f64::max);
-    simulation.enable_heat(Thermal::default(), [WallHeat::Temperature(hottest + SHOCK); 4]);
-    simulation.run(SHOCK_STEPS).map_err(msdd_rve::RveError::from)?;
-    Ok(simulation)
-}
-
-fn line(name: &str, simulation: &Simulation) {
+/// Predicted and measured limits [s].
+fn row(porosity: f64, simulation: &Simulation) -> Value {
     let mechanical = simulation.stable_step();
     let mechanical_ratio = largest_factor(|factor| shaken_is_stable(simulation, factor * mechanical));
     let mut warm = simulation.clone();
@@ -72,11 +45,11 @@ fn line(name: &str, simulation: &Simulation) {
     (0..200).for_each(|_| warm.conduct(1e-9)); // lets the power iteration converge
     let thermal = warm.heat().map_or(f64::NAN, |heat| heat.stable_step());
     let thermal_ratio = largest_factor(|factor| heat_is_stable(&warm, factor * thermal));
-    outln!(
-        "{name:<20} {mechanical:>10.3e} {:>10.3e} {mechanical_ratio:>6.2} {thermal:>13.3e} {:>9.3e} {thermal_ratio:>6.2}",
-        mechanical * mechanical_ratio,
-        thermal * thermal_ratio
-    );
+    json!({
+        "porosity": porosity,
+        "mechanical": [mechanical, mechanical * mechanical_ratio],
+        "thermal": [thermal, thermal * thermal_ratio],
+    })
 }
 
 /// The largest factor that is stable, by bisection between [`FACTORS`].

@@ -1,13 +1,13 @@
 //! The tables of all packings of a plan, as they are shipped: `packings.csv`, `probes.csv.gz`, `windows.csv.gz`.
 
-use crate::ReferenceError;
-use crate::results::Table;
-use crate::scenes::SceneResults;
-use crate::scenes::discs::{PACKING_COLUMNS, PROBE_COLUMNS, WINDOW_COLUMNS};
-use crate::scenes::plan::PlannedScene;
+use super::SceneResults;
+use super::discs::{PACKING_COLUMNS, PROBE_COLUMNS, WINDOW_COLUMNS};
+use super::plan::PlannedScene;
 use flate2::Compression;
 use flate2::read::GzDecoder;
 use flate2::write::GzEncoder;
+use msdd_dem_reference::ReferenceError;
+use msdd_dem_reference::results::Table;
 use msdd_files::Column;
 use std::fmt::Write as _;
 use std::io::{Read, Write};

@@ -1,15 +1,12 @@
-//! `msdd reference beds`: compares the solver with beds of spheres computed by DEM, and fits its error bands.
+//! `comparisons beds`: compares the solver with beds of spheres computed by DEM, and fits its error bands.
 
-use super::bands::{Found, Group, fit_law, print_coverage, run as attempt_run, write_law};
-use super::scenes::solve;
-use crate::bed::foam::{self, probes};
-use crate::bed::geometry::Geometry;
-use crate::case::checkout;
-use crate::error::CliError;
+use crate::bands::{Found, Group, fit_law, print_coverage, run as attempt_run, write_law};
+use crate::calibrate::Row;
+use crate::dem::{BedPlan, PlannedBed};
+use crate::scenes::solve;
 use clap::Args;
 use msdd_autotune::ChoiceError;
 use msdd_autotune::bands::{CONDUCTIVITY, Lengths, Units, sensitivity};
-use msdd_autotune::calibrate::Row;
 use msdd_autotune::quantity::Quantity;
 use msdd_autotune::series::Series;
 use msdd_autotune::user_case::UserCase;
@@ -17,7 +14,7 @@ use msdd_beds::case::{BedCase, file_in};
 use msdd_beds::packings::column;
 use msdd_case::folder;
 use msdd_case::numbers::plain;
-use msdd_dem_reference::scenes::{BedPlan, PlannedBed};
+use msdd_cli::shared::{CliError, Geometry, checkout, files, probes};
 use msdd_files::{Column, read_text, write};
 use msdd_training::dem_start::{FirstRow, packings};
 use std::fmt::Write as _;
@@ -48,10 +45,8 @@ const ACROSS: usize = 4;
 const FILLED: f64 = 0.6;
 
 #[derive(Args)]
-#[command(
-    after_help = "Example: msdd reference beds --plan cases/beds/plan.toml --out results/beds-by-solver
-DEM results are made by 'msdd bed run'; cases/beds/make computes those that are not there."
-)]
+#[command(after_help = "Example: comparisons beds --plan cases/beds/plan.toml --out results/beds-by-solver
+DEM results are made by 'msdd bed run'; cases/beds/make computes those that are not there.")]
 pub struct Arguments {
     /// The plan: a TOML file with blocks [[scenes]] of a name and a use. Beside it stands a folder of each name with bed.toml and
     /// the files dem-<seed>.csv of its packings.
@@ -85,10 +80,10 @@ pub fn run(arguments: &Arguments) -> Result<(), CliError> {
     let root = arguments.plan.parent().unwrap_or(Path::new("."));
     let mut found = Found::new();
     let mut csv = msdd_files::names(&COLUMNS).join(",") + "\n";
-    outln!(
+    println!(
         "solver less DEM, and standard deviation of one packing, rms over the run: T in % of the range of T, others in %"
     );
-    outln!("{:15} {:9} {:>8} {:>13} {:>13} {:>13}", "scene", "use", "packings", "T", "p", "K");
+    println!("{:15} {:9} {:>8} {:>13} {:>13} {:>13}", "scene", "use", "packings", "T", "p", "K");
     let wanted = |scene: &&PlannedBed| arguments.only.is_empty() || arguments.only.contains(&scene.name);
     for (number, planned) in plan.scenes.iter().filter(wanted).enumerate() {
         let folder = root.join(&planned.name);
@@ -112,7 +107,13 @@ pub fn run(arguments: &Arguments) -> Result<(), CliError> {
             cells.push([error(&own, range), scatter(&own, range)]);
         }
         let text: Vec<String> = cells.iter().map(|[e, s]| format!("{e:6.2} {s:6.2}")).collect();
-        outln!("{:15} {:9} {:>8} {}", planned.name, planned.purpose.as_str(), packings.len(), text.join(" "));
+        println!(
+            "{:15} {:9} {:>8} {}",
+            planned.name,
+            planned.purpose.as_str(),
+            packings.len(),
+            text.join(" ")
+        );
         let numbers: Vec<String> = cells.iter().flatten().map(|value| decimals(*value)).collect();
         let _ = writeln!(
             csv,
@@ -174,7 +175,7 @@ impl Packing<'_> {
         let failed = |error: ChoiceError| CliError::Message(error.to_string());
         let start = FirstRow::read(self.file)?;
         let geometry = Geometry::new(&file_in(self.folder), self.bed, start.depth)?;
-        folder::write(place, &foam::files(self.folder, self.bed, &start, "bed", checkout)?)?;
+        folder::write(place, &files(self.folder, self.bed, &start, "bed", checkout)?)?;
         solve(place, checkout).map_err(CliError::Message)?;
         let mut scene = UserCase::read(place).map_err(failed)?;
         let all = self.compared(&geometry, &mut scene);

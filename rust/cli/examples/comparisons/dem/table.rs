@@ -1,9 +1,9 @@
 //! Errors of the solver in a scene compared with the scatter of its packings, at the output times after the start.
 
-use crate::ReferenceError;
-use crate::scenes::SceneResults;
-use crate::series::{at, mean_and_deviation};
-use crate::solver::{pressure_rows, probe_rows};
+use super::SceneResults;
+use msdd_dem_reference::ReferenceError;
+use msdd_dem_reference::series::{at, mean_and_deviation};
+use msdd_dem_reference::solver::{pressure_rows, probe_rows};
 use std::path::Path;
 
 /// Mean and largest value.

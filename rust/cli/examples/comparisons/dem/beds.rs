@@ -1,7 +1,7 @@
 //! The plan of the beds of spheres: a TOML file with a name and a use for each. The beds themselves stand in folders next to it.
 
 use super::Use;
-use crate::ReferenceError;
+use msdd_dem_reference::ReferenceError;
 use msdd_files::read_text;
 use serde::Deserialize;
 use std::collections::BTreeSet;

@@ -1,11 +1,11 @@
-//! `msdd reference ranges`: the ranges of the scenes and beds by which the default models are compared with DEM.
+//! `comparisons ranges`: the ranges of the scenes and beds by which the default models are compared with DEM.
 
-use crate::error::CliError;
+use crate::dem::{BedPlan, Plan, PlannedScene, Use, data};
 use clap::Args;
 use msdd_beds::case::BedCase;
 use msdd_beds::packings::{at_start, column};
 use msdd_beds::pour::Container;
-use msdd_dem_reference::scenes::{BedPlan, Plan, PlannedScene, Use, data};
+use msdd_cli::shared::CliError;
 use msdd_files::{read_text, write};
 use msdd_spheres::law::effective_modulus;
 use msdd_surrogate::compared::{Compared, Ranges};
@@ -17,7 +17,7 @@ const DIGITS: i32 = 3;
 
 #[derive(Args)]
 #[command(
-    after_help = "Example: msdd reference ranges --scenes cases/scenes/plan.toml --beds cases/beds/plan.toml \\
+    after_help = "Example: comparisons ranges --scenes cases/scenes/plan.toml --beds cases/beds/plan.toml \\
     --out rust/surrogate/src/compared.json"
 )]
 pub struct Arguments {
