@@ -21,18 +21,6 @@ License
 
 #include <map>
 
-// * * * * * * * * * * * * * * * Local Functions * * * * * * * * * * * * * * //
-
-namespace Foam
-{
-
-//- Largest pressure of the solver over that in DEM at the same time, in a
-//- closed vessel of steel spheres that is heated from outside and cooled
-static const scalar relievedError = 64;
-
-} // End namespace Foam
-
-
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
 Foam::runSummary::heatBalance Foam::runSummary::heat() const
@@ -161,12 +149,16 @@ Foam::string Foam::runSummary::unloaded() const
           + seconds(relief.whole) + " s in all";
     }
     text += ". The least mean pressure was " + pascals(relief.least) + '.';
-    if (grains_.model().isThreeDimensional() && mechanics_.type() != "none")
+    if (grains_.record().course.lostLoad())
     {
         text +=
-            " Spheres that are sheared near no load compact more than the law"
-            " does. In a vessel heated from outside, the pressure was later up to "
-          + brief(relievedError) + " times the pressure in DEM.";
+            " From " + seconds(relief.loaded) + " to "
+          + seconds(grains_.mesh().time().value())
+          + " s the bed carries load again, up to " + pascals(relief.regained)
+          + ". This pressure is not validated: spheres that are sheared near no"
+            " load compact more than the law does. In a vessel heated from"
+            " outside, the pressure was up to " + brief(lostLoadError)
+          + " times the pressure in DEM.";
     }
     return text;
 }

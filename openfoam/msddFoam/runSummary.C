@@ -90,6 +90,16 @@ void Foam::runSummary::writeCourse
     writeTexts(os, course.beyond());
     os  << ", \"beyond_since\": ";
     orNull(since < GREAT, since);
+    const runCourse::relief& relief = course.unloaded();
+    os  << "},\n  \"unloaded\": {\"least_share\": " << relief.share
+        << ", \"since\": ";
+    orNull(relief.periods, relief.since);
+    os  << ", \"until\": ";
+    orNull(relief.periods, relief.until);
+    os  << ", \"loaded_since\": ";
+    orNull(course.lostLoad(), relief.loaded);
+    os  << ", \"largest_factor\": ";
+    orNull(course.lostLoad(), lostLoadError);
     os  << "},\n  \"steady\": {\"rate\": " << course.rate()
         << ", \"uptake\": " << course.uptake().heat << ", \"share\": ";
     orNull(share > 0, share);

@@ -101,7 +101,10 @@ Foam::grainFields::grainFields
     strengthGiven_(false)
 {
     record_.compare(settings());
-    record_.course.compare(model_->hash(), model_->stressScale());
+    record_.course.compare
+    (
+        model_->hash(), model_->stressScale(), model_->isThreeDimensional()
+    );
     checkField(T, dimTemperature, -GREAT, GREAT);
     checkField(initialTemperature_, dimTemperature, -GREAT, GREAT);
     checkInitialTemperature(T);

@@ -124,8 +124,14 @@ Foam::runCourse::range Foam::runCourse::all(const quantity q) const
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
-void Foam::runCourse::compare(const std::string& hash, const scalar modulus)
+void Foam::runCourse::compare
+(
+    const std::string& hash,
+    const scalar modulus,
+    const bool spheres
+)
 {
+    spheres_ = spheres;
     for (label q = 0; q < quantities && modulus > 0; ++q)
     {
         range& known = compared_[q];
@@ -171,6 +177,12 @@ void Foam::runCourse::load(const scalar time, const scalar pressure)
         relief_.periods += !relieved_;
         relief_.until = relief_.periods == 1 ? time : relief_.until;
         relief_.least = min(relief_.least, pressure);
+        relief_.share = min(relief_.share, pressure/peak_);
+    }
+    else if (relief_.periods)
+    {
+        relief_.loaded = min(relief_.loaded, time);
+        relief_.regained = max(relief_.regained, pressure);
     }
     relieved_ = relieved;
     observed_ = time;
@@ -272,13 +284,25 @@ Foam::stringList Foam::runCourse::beyond() const
             parts.append(text.str());
         }
     }
+    if (lostLoad())
+    {
+        std::ostringstream text;
+        text.precision(3);
+        text<< "load after a loss of " << 100*(1 - relief_.share)
+            << " % (compared: none)";
+        parts.append(text.str());
+    }
     return stringList(parts);
 }
 
 
 Foam::scalar Foam::runCourse::beyondSince() const
 {
-    return returnReduce(beyondSince_, minOp<scalar>());
+    return min
+    (
+        returnReduce(beyondSince_, minOp<scalar>()),
+        lostLoad() ? relief_.loaded : GREAT
+    );
 }
 
 
@@ -345,6 +369,9 @@ void Foam::runCourse::read(const dictionary& dict)
     load.readIfPresent("until", relief_.until);
     load.readIfPresent("whole", relief_.whole);
     load.readIfPresent("least", relief_.least);
+    load.readIfPresent("share", relief_.share);
+    load.readIfPresent("loaded", relief_.loaded);
+    load.readIfPresent("regained", relief_.regained);
     for (label q = 0; q < quantities; ++q)
     {
         const word key(comparedQuantities[q].key);
@@ -367,6 +394,9 @@ Foam::dictionary Foam::runCourse::written() const
     load.add("until", relief_.until);
     load.add("whole", relief_.whole);
     load.add("least", relief_.least);
+    load.add("share", relief_.share);
+    load.add("loaded", relief_.loaded);
+    load.add("regained", relief_.regained);
     dict.add("unloaded", load);
     for (label q = 0; q < quantities; ++q)
     {
