@@ -430,18 +430,22 @@ impl<'a> Coupled<'a> {
         self.sides = self.scene.sides.as_ref().zip(self.scene.container.base).map(|(sides, [x, y])| {
             [x * (1.0 + sides.strain_x.at(time)), y * (1.0 + sides.strain_y.at(time))]
         });
-        let wall = self.wall_growth(time);
-        if let Some(WallControl::Shell { grown, .. }) = self.shell.as_mut().map(|shell| &mut shell.hold) {
-            *grown = wall;
+        let (strain, radius) = (self.shell_strain(time), self.scene.container.radius.unwrap_or(0.0));
+        let Some(shell) = &mut self.shell else { return };
+        if let WallControl::Shell { grown, .. } = &mut shell.hold {
+            *grown = strain * radius;
+        }
+        if self.scene.grains.wall_friction > 0.0 {
+            shell.stretch = strain;
         }
     }
 
-    /// Growth of the radius of a shell by its own temperature, which is that of the heated side, else that of the start \[m\].
-    fn wall_growth(&self, time: f64) -> f64 {
+    /// Strain of a shell by its own temperature, which is that of the heated side, else that of the start \[-\].
+    fn shell_strain(&self, time: f64) -> f64 {
         let expansion = self.scene.shell.as_ref().map_or(0.0, |shell| shell.thermal_expansion);
         let side = self.scene.heated.iter().find(|heated| heated.wall == "side");
         let rise = side.map_or(0.0, |side| side.at(time) - self.scene.time.initial_temperature);
-        expansion * rise * self.scene.container.radius.unwrap_or(0.0)
+        expansion * rise
     }
 
     /// The largest overlap of a contact over the radius.

@@ -4,7 +4,7 @@
 //! on the other, and stopped by the same drag as the grains; only where it comes to rest counts. A thin shell (thickness t, radius R,
 //! Young's modulus E_w) holds with the pressure p₀ + E_w t/R² (u − u_T), where u is what its radius has grown by, u_T = α_w (T − T₀) R is its
 //! own expansion, and p₀ the pressure of the grains at the start (Timoshenko & Woinowsky-Krieger, Theory of Plates and Shells, 1959,
-//! section 15.1: the hoop alone).
+//! section 15.1: the hoop alone). Spheres that rub on it also feel its expansion along the axis, from the floor on.
 
 use msdd_spheres::time_step::SAFETY;
 use msdd_spheres::{Failure, Simulation, StepChoice, Surface};
@@ -51,8 +51,13 @@ pub struct Moving {
     pub hold: WallControl,
     /// Moved towards the grains since the start \[m\].
     pub moved: f64,
-    /// Towards the grains \[m/s\].
+    /// Strain along the axis of a shell since the start that is aimed at \[-\].
+    pub stretch: f64,
+    /// That strain now.
+    stretched: f64,
+    /// Towards the grains \[m/s\], and rate of that strain \[1/s\].
     speed: f64,
+    stretching: f64,
 }
 
 /// Area of a wall against a bed \[m²\]; `across` \[m²\] is that of a flat one, `height` \[m\] that of a cylinder.
@@ -65,7 +70,7 @@ pub fn wall_area(simulation: &Simulation, wall: usize, across: f64, height: f64)
 
 impl Moving {
     pub fn new(wall: usize, hold: WallControl) -> Self {
-        Self { wall, hold, moved: 0.0, speed: 0.0 }
+        Self { wall, hold, moved: 0.0, stretch: 0.0, stretched: 0.0, speed: 0.0, stretching: 0.0 }
     }
 
     /// What holds it from outside \[Pa\]; `None` at a given place.
@@ -85,7 +90,7 @@ impl Moving {
     }
 
     /// Chooses its velocity for the next steps, which take `dt` \[s\]; `pressure` is that of the grains \[Pa\]. It comes to its
-    /// place after `left` \[s\].
+    /// place, and a shell to its strain along the axis, after `left` \[s\].
     pub fn steer(&mut self, simulation: &mut Simulation, pressure: f64, dt: f64, left: f64) {
         if let WallControl::Place { moved } = self.hold {
             self.speed = (moved - self.moved) / left;
@@ -100,6 +105,8 @@ impl Moving {
             self.speed = (self.speed + dt * (outside - pressure) / mass) / resisting;
         }
         self.moved += self.speed * dt;
+        self.stretching = (self.stretch - self.stretched) / left;
+        self.stretched += self.stretching * dt;
         self.set(simulation);
     }
 
@@ -107,13 +114,13 @@ impl Moving {
         let wall = &mut simulation.boundary.walls_mut()[self.wall];
         match &mut wall.surface {
             Surface::Flat { normal } => wall.velocity = normal.map(|n| self.speed * n),
-            Surface::Cylinder { growth, .. } => *growth = -self.speed,
+            Surface::Cylinder { growth, stretch, .. } => (*growth, *stretch) = (-self.speed, self.stretching),
         }
     }
 
     /// Stops it.
     pub fn stop(&mut self, simulation: &mut Simulation) {
-        self.speed = 0.0;
+        (self.speed, self.stretching) = (0.0, 0.0);
         self.set(simulation);
     }
 }
@@ -203,6 +210,24 @@ mod tests {
         assert!(((moved - radius) / (place - radius) - 1.0).abs() < 1e-4, "{moved} {place}");
         // It moves by a good part of what a rigid one would not.
         assert!((place - radius) / (3.0 * growth * RADIUS) > 0.1, "{place}");
+    }
+
+    /// Two spheres across a cylinder, which rubs on them: they roll, with 2/7 of the speed of the wall next to them.
+    #[test]
+    fn a_shell_takes_spheres_along_that_rub_on_it() {
+        let (place, strain, overlap) = (0.01, 1e-5, 1e-6);
+        let rubbing = Material { wall_friction: 0.3, ..material() };
+        let spheres =
+            [RADIUS, -RADIUS].map(|x| Sphere::at_rest([x, 0.0, place], RADIUS, 2500.0)).into();
+        let side = Wall::cylinder([0.0; 3], [0.0, 0.0, 1.0], 2.0 * RADIUS - overlap);
+        let mut simulation = Simulation::new(rubbing, spheres, Boundary::Walls(vec![side])).unwrap();
+        let mut shell = Moving::new(0, WallControl::Place { moved: 0.0 });
+        for block in 0..100 {
+            shell.stretch = strain * f64::min(f64::from(block) / 80.0, 1.0);
+            steered(&mut simulation, |simulation, dt, left| shell.steer(simulation, 0.0, dt, left)).unwrap();
+        }
+        let share = (simulation.spheres[0].position[2] / place - 1.0) / strain;
+        assert!((share / (2.0 / 7.0) - 1.0).abs() < 0.01, "{share}");
     }
 
     /// A sphere between a floor and a lid with a pressure, and with a given place.

@@ -102,7 +102,8 @@ fn velocity(simulation: &Simulation, spheres: &[Sphere], contact: &Contact) -> [
     match contact.i {
         Partner::Wall(wall) => {
             let arm = of_j.radius - contact.overlap;
-            let apart = minus(of_j.velocity, simulation.boundary.walls()[wall].velocity_at(contact.normal));
+            let wall = &simulation.boundary.walls()[wall];
+            let apart = minus(of_j.velocity, wall.velocity_at(of_j.position, contact.normal));
             minus(apart, cross(scaled(arm, of_j.angular_velocity), contact.normal))
         }
         Partner::Sphere(i) => {

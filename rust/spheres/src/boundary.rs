@@ -23,6 +23,9 @@ pub enum Surface {
         /// Rate at which the radius grows [m/s].
         #[serde(default)]
         growth: f64,
+        /// Rate of strain along the axis, from the wall's point on \[1/s\]. It counts as slip.
+        #[serde(default)]
+        stretch: f64,
     },
 }
 
@@ -45,7 +48,7 @@ impl Wall {
 
     /// The inner side of a cylinder at rest; `axis` is a unit vector.
     pub fn cylinder(point: [f64; 3], axis: [f64; 3], radius: f64) -> Self {
-        Self { point, surface: Surface::Cylinder { axis, radius, growth: 0.0 }, velocity: [0.0; 3] }
+        Self { point, surface: Surface::Cylinder { axis, radius, growth: 0.0, stretch: 0.0 }, velocity: [0.0; 3] }
     }
 
     /// Distance of a point from the wall, positive on the side of the spheres \[m\], and the unit normal of the wall at the
@@ -63,12 +66,15 @@ impl Wall {
         }
     }
 
-    /// Velocity [m/s] of the wall where its normal is `normal`.
+    /// Velocity [m/s] of the wall next to a point, where its normal is `normal`.
     #[inline]
-    pub fn velocity_at(&self, normal: [f64; 3]) -> [f64; 3] {
+    pub fn velocity_at(&self, point: [f64; 3], normal: [f64; 3]) -> [f64; 3] {
         match self.surface {
             Surface::Flat { .. } => self.velocity,
-            Surface::Cylinder { growth, .. } => plus(self.velocity, -growth, normal),
+            Surface::Cylinder { axis, growth, stretch, .. } => {
+                let along = stretch * dot(minus(point, self.point), axis);
+                plus(plus(self.velocity, -growth, normal), along, axis)
+            }
         }
     }
 
@@ -237,6 +243,14 @@ mod tests {
         assert!(distance.abs() < 1e-15, "{distance}");
         assert!(length(minus(normal, [-0.6, 0.8, 0.0])) < 1e-15, "{normal:?}");
         assert_eq!(wall.foot([1.0, 2.0, 9.0]), (0.5, [0.0; 3]));
+    }
+
+    #[test]
+    fn a_cylinder_stretches_from_its_point_on() {
+        let mut wall = Wall::cylinder([0.0, 0.0, 1.0], [0.0, 0.0, 1.0], 0.5);
+        wall.surface = Surface::Cylinder { axis: [0.0, 0.0, 1.0], radius: 0.5, growth: 0.2, stretch: 0.1 };
+        assert_eq!(wall.velocity_at([0.4, 0.0, 3.0], [-1.0, 0.0, 0.0]), [0.2, 0.0, 0.2]);
+        assert_eq!(wall.velocity_at([0.4, 0.0, 1.0], [-1.0, 0.0, 0.0]), [0.2, 0.0, 0.0]);
     }
 
     #[test]

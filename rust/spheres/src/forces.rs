@@ -46,7 +46,7 @@ pub(crate) fn add_wall(
         let touch = Touch {
             normal: across,
             overlap,
-            velocity: minus(sphere.velocity, wall.velocity_at(across)),
+            velocity: minus(sphere.velocity, wall.velocity_at(sphere.position, across)),
             spin: scaled(distance, sphere.angular_velocity),
             radius: sphere.radius,
             mass: sphere.mass,

@@ -156,7 +156,7 @@ pub struct Shell {
     pub young_modulus: f64,
     /// Its thickness t \[m\]. Allowed: `POSITIVE`.
     pub thickness: f64,
-    /// Its linear coefficient of thermal expansion, by which its radius alone grows; it has the temperature of the heated wall `side`, else the initial one
+    /// Its linear coefficient of thermal expansion, by which it grows around and, if spheres rub on it, along its axis, from the floor on; it has the temperature of the heated wall `side`, else the initial one
     /// [1/K]. Allowed: `EXPANSIONS`.
     #[serde(default)]
     pub thermal_expansion: f64,

@@ -311,9 +311,8 @@ fn rest(scene: &SphereCase) -> String {
         true => format!(" slackLayer {}; slackRecovery 0.1;", plain(scene.slack_layer)),
         false => String::new(),
     };
-    let diameter = 2.0 * scene.spheres.radius();
-    let rigid = wall::entry(scene.wall_friction, diameter);
-    let friction = wall::friction(scene.wall_friction, diameter);
+    let rigid = wall::entry(scene.wall_friction, scene.spheres.sphere());
+    let friction = wall::friction(scene.wall_friction, scene.spheres.sphere());
     let entry = |name: &str| match name {
         "top" if scene.lid == Lid::Presses => {
             format!("type piston; pressure constant {};{friction}", plain(scene.pressure))
@@ -388,7 +387,7 @@ fn side(scene: &SphereCase) -> Option<String> {
             plain(shell.thickness),
             plain(radius),
             wall::expansion(shell.thermal_expansion, scene.initial_temperature, scene.wall_friction),
-            wall::friction(scene.wall_friction, 2.0 * scene.spheres.radius())
+            wall::friction(scene.wall_friction, scene.spheres.sphere())
         )),
         _ => None,
     }

@@ -165,6 +165,11 @@ impl Spheres {
         self.grains.mean_radius
     }
 
+    /// Diameter \[m\] and Young's modulus \[Pa\].
+    pub fn sphere(&self) -> [f64; 2] {
+        [2.0 * self.radius(), self.grains.young_modulus]
+    }
+
     /// E* = E/(2 (1 − ν²)) \[Pa\]: the law's stresses are in proportion to it.
     pub fn contact_modulus(&self) -> f64 {
         0.5 * self.grains.young_modulus / (1.0 - self.poisson_ratio * self.poisson_ratio)

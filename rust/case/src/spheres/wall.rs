@@ -94,8 +94,10 @@ pub const OF_SPHERE: f64 = 0.3;
 
 /// Most friction that a flat wall has for a bed, however rough it is.
 const MOST: f64 = 0.18;
-/// Slip at which half of it is reached \[diameters of a sphere\].
+/// Slip at which half of it is reached \[diameters of a sphere\], of spheres of glass; that of others is to it as their overlaps under equal
+/// stress, which Hertz's law has with E^(-2/3).
 const SLIP: f64 = 5e-4;
+const GLASS: f64 = 70e9;
 
 /// Tangential over normal stress at a flat wall along which a bed slips, of spheres that slide on it with this coefficient of friction:
 /// less, because spheres also roll along it. The form is a fit to beds of DEM in cylinders, heated and cooled: 0.08, 0.13
@@ -119,27 +121,29 @@ pub fn of_spheres(friction: f64) -> Option<f64> {
     (friction < MOST).then(|| friction / (1.0 - (friction / MOST).powi(2)).sqrt())
 }
 
-/// The keys of friction of a wall in `constant/granularProperties`, each after a blank; `diameter` of the spheres \[m\].
-pub fn friction(friction: f64, diameter: f64) -> String {
-    widened_friction(friction, diameter, 1.0)
+/// The keys of friction of a wall in `constant/granularProperties`, each after a blank; diameter \[m\] and Young's modulus \[Pa\] of the
+/// spheres.
+pub fn friction(friction: f64, sphere: [f64; 2]) -> String {
+    widened_friction(friction, sphere, 1.0)
 }
 
 /// The same for a mesh that ends before the side of a cylinder, whose radius is larger by the factor `widening`: so much more friction goes to
 /// the side as it is longer.
-pub fn widened_friction(friction: f64, diameter: f64, widening: f64) -> String {
+pub fn widened_friction(friction: f64, [diameter, young_modulus]: [f64; 2], widening: f64) -> String {
     match friction > 0.0 {
         true => {
-            let [friction, slip] = [widening * of_bed(friction), SLIP * diameter].map(short);
+            let slip = SLIP * diameter * (GLASS / young_modulus).powf(2.0 / 3.0);
+            let [friction, slip] = [widening * of_bed(friction), slip].map(short);
             format!(" friction {friction}; slip {slip};")
         }
         false => String::new(),
     }
 }
 
-/// A wall that stays, as an entry of `walls` in `constant/granularProperties`; `diameter` of the spheres \[m\].
-pub fn entry(friction: f64, diameter: f64) -> String {
+/// A wall that stays, as an entry of `walls` in `constant/granularProperties`; `sphere` as in [`friction`](fn@friction).
+pub fn entry(friction: f64, sphere: [f64; 2]) -> String {
     match friction > 0.0 {
-        true => format!("type rigid;{}", self::friction(friction, diameter)),
+        true => format!("type rigid;{}", self::friction(friction, sphere)),
         false => "type frictionless;".to_string(),
     }
 }

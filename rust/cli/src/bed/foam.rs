@@ -78,11 +78,7 @@ fn notes(scene: &BedCase) -> Vec<String> {
     });
     let sides =
         scene.sides.is_some().then(|| "the base is strained; in the solver's case it stays".to_string());
-    let stretches = scene.shell.as_ref().is_some_and(|shell| shell.thermal_expansion > 0.0);
-    let along = (stretches && scene.grains.wall_friction > 0.0).then(|| {
-        "the shell expands along its axis, too, past spheres that rub on it; in DEM its radius alone grows".to_string()
-    });
-    grains.into_iter().chain(sides).chain(along).collect()
+    grains.into_iter().chain(sides).collect()
 }
 
 /// The files of the case.
@@ -243,9 +239,10 @@ fn properties(scene: &BedCase, start: &FirstRow, geometry: &Geometry) -> String 
         plain(grains.thermal_expansion.unwrap_or(0.0)),
         plain(0.5 * grains.diameter),
     );
-    let rigid = wall::entry(grains.wall_friction, grains.diameter);
-    let friction = wall::friction(grains.wall_friction, grains.diameter);
-    let at_side = wall::widened_friction(grains.wall_friction, grains.diameter, geometry.widening);
+    let sphere = [grains.diameter, grains.young_modulus];
+    let rigid = wall::entry(grains.wall_friction, sphere);
+    let friction = wall::friction(grains.wall_friction, sphere);
+    let at_side = wall::widened_friction(grains.wall_friction, sphere, geometry.widening);
     let lid = match scene.lid_moves() {
         (Some(strain), _) => {
             let moved = table(strain, |strain| geometry.along(-strain * geometry.depth()));

@@ -29,7 +29,7 @@ struct File {
     /// Of a box that repeats itself: its entries follow; absent between walls alone.
     #[serde(rename = "box", default, skip_serializing_if = "Option::is_none")]
     cell: Option<Box>,
-    /// List of walls, each with `point`, `surface` (`flat` with `normal`, or `cylinder` with `axis`, `radius`, `growth`) and
+    /// List of walls, each with `point`, `surface` (`flat` with `normal`, or `cylinder` with `axis`, `radius`, `growth`, `stretch`) and
     /// `velocity` [m, –, m/s].
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     walls: Vec<Wall>,
@@ -300,11 +300,11 @@ fn boundary(cell: Option<Box>, walls: Vec<Wall>) -> Result<Boundary, StateError>
 
 fn check_wall(number: usize, wall: &Wall) -> Result<(), StateError> {
     let wrong = |problem: &str| Err(StateError::Box(format!("wall {number}: {problem}")));
-    let (direction, radius, growth) = match wall.surface {
-        Surface::Flat { normal } => (normal, 1.0, 0.0),
-        Surface::Cylinder { axis, radius, growth } => (axis, radius, growth),
+    let (direction, radius, rates) = match wall.surface {
+        Surface::Flat { normal } => (normal, 1.0, [0.0; 2]),
+        Surface::Cylinder { axis, radius, growth, stretch } => (axis, radius, [growth, stretch]),
     };
-    let mut all = wall.point.iter().chain(&wall.velocity).chain(&direction).chain([&growth]);
+    let mut all = wall.point.iter().chain(&wall.velocity).chain(&direction).chain(&rates);
     if !all.all(|&number| is_allowed(number, ANY)) {
         return wrong("numbers, allowed: -1e30 to 1e30");
     }
