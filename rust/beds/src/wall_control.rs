@@ -217,8 +217,7 @@ mod tests {
     fn a_shell_takes_spheres_along_that_rub_on_it() {
         let (place, strain, overlap) = (0.01, 1e-5, 1e-6);
         let rubbing = Material { wall_friction: 0.3, ..material() };
-        let spheres =
-            [RADIUS, -RADIUS].map(|x| Sphere::at_rest([x, 0.0, place], RADIUS, 2500.0)).into();
+        let spheres = [RADIUS, -RADIUS].map(|x| Sphere::at_rest([x, 0.0, place], RADIUS, 2500.0)).into();
         let side = Wall::cylinder([0.0; 3], [0.0, 0.0, 1.0], 2.0 * RADIUS - overlap);
         let mut simulation = Simulation::new(rubbing, spheres, Boundary::Walls(vec![side])).unwrap();
         let mut shell = Moving::new(0, WallControl::Place { moved: 0.0 });

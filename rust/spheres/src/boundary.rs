@@ -48,7 +48,11 @@ impl Wall {
 
     /// The inner side of a cylinder at rest; `axis` is a unit vector.
     pub fn cylinder(point: [f64; 3], axis: [f64; 3], radius: f64) -> Self {
-        Self { point, surface: Surface::Cylinder { axis, radius, growth: 0.0, stretch: 0.0 }, velocity: [0.0; 3] }
+        Self {
+            point,
+            surface: Surface::Cylinder { axis, radius, growth: 0.0, stretch: 0.0 },
+            velocity: [0.0; 3],
+        }
     }
 
     /// Distance of a point from the wall, positive on the side of the spheres \[m\], and the unit normal of the wall at the
