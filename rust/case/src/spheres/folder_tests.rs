@@ -75,7 +75,12 @@ fn walls_and_stress_stand_where_the_solver_looks_for_them() {
         (&bare, "system/fvSolution", "stopWhenSteady          1e-3;", true),
         (&rough, "0/stress", "uniform", false),
         (&rough_vessel, GRAINS, "fixedPoint (0 0 0); friction 0.154; slip 1.54e-6; }", true),
-        (&rough_vessel, GRAINS, "type piston; pressure constant 20000; friction 0.154; slip 1.54e-6; }", true),
+        (
+            &rough_vessel,
+            GRAINS,
+            "type piston; pressure constant 20000; friction 0.154; slip 1.54e-6; }",
+            true,
+        ),
         (&still, GRAINS, "equilibriumCoeffs", false),
         (&still, GRAINS, "throughCoeffs", false),
         (&blown, GRAINS, "massFlow        0.0001;", true),

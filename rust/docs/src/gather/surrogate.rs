@@ -31,7 +31,6 @@ pub fn section(root: &Path) -> Result<Section, DocsError> {
             way_back(&mut section, &score)?;
             means(&mut section, &score)?;
             paths(&mut section, &score)?;
-            probes(&mut section, &score)?;
         }
     }
     spheres(&mut section, &Json::read(root, &format!("{INPUTS}/score_spheres.json"))?)?;
@@ -240,30 +239,5 @@ fn spheres(section: &mut Section, scores: &Json) -> Result<(), DocsError> {
     let meaning = "rms errors of conductivities of known states, and errors along paths where solid fraction, stress and mobilised \
                    friction alone are known at the start";
     section.add_table("spheres-law-known", meaning, "msdd score", &columns, known);
-    Ok(())
-}
-
-/// Small strains that were tried on the way.
-fn probes(section: &mut Section, score: &Json) -> Result<(), DocsError> {
-    let mut rows = Vec::new();
-    for size in score.list("/probes")? {
-        let mut row = vec![size.number("/size")?.to_string()];
-        row.extend([grouped(size.number("/discs")?), grouped(size.number("/probes")?)]);
-        for name in ["tangent", "normal", "shear"] {
-            row.push(decimals(100.0 * size.number(&format!("/{name}"))?, 1));
-        }
-        rows.push(row);
-    }
-    let columns = [
-        "strain",
-        "discs",
-        "strains tried",
-        "stiffnesses, rms [%]",
-        "xx by xx, mean [%]",
-        "xy by xy, mean [%]",
-    ];
-    let meaning = "stiffness against small strains tried on paths of packings that training never saw, over that of the discs, less 1; \
-                   of all stiffnesses the rms error over the mean of xx by xx and yy by yy";
-    section.add_table("surrogate-probes", meaning, "msdd score", &columns, rows);
     Ok(())
 }
