@@ -20,12 +20,14 @@ use crate::jobs::job::Job;
 use crate::jobs::pool::{Asked, Records};
 use crate::settings::Settings;
 use serde::Serialize;
+use serde_json::Value;
 
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct Failures {
     pub rows: Vec<rows::Row>,
-    pub stable_steps: Vec<elements::StableStep>,
-    pub limits: Option<elements::Limits>,
+    /// As [`elements::stability`] and [`elements::limits`] write them.
+    pub stable_steps: Vec<Value>,
+    pub limits: Option<Value>,
     pub coupling: Vec<solver::Coupling>,
     pub contrast: Vec<solver::Contrast>,
     pub slant: Vec<solver::Slant>,
