@@ -42,7 +42,7 @@ class Databases(unittest.TestCase):
         csv, out = self.folder / "boxes.csv", self.folder / "model.json"
         msdd.export_database(self.database, csv)
         model = msdd.train(self.database, out, model="constant", name="mine")
-        self.assertEqual(model.describe()["name"], "mine")
+        self.assertEqual(model.info["name"], "mine")
         text = out.read_bytes()
         self.assertEqual(msdd.train([csv], out, model="constant", name="mine", threads=2).hash, model.hash)
         self.assertEqual(out.read_bytes(), text)
