@@ -166,7 +166,8 @@ void Foam::runCourse::see
 void Foam::runCourse::load(const scalar time, const scalar pressure)
 {
     peak_ = max(peak_, pressure);
-    const bool relieved = pressure < slightLoad*peak_;
+    // A bed that never had a load, or is in tension, lost none
+    const bool relieved = peak_ > 0 && pressure < slightLoad*peak_;
     if (relieved && relieved_)
     {
         relief_.whole += time - observed_;
@@ -177,7 +178,7 @@ void Foam::runCourse::load(const scalar time, const scalar pressure)
         relief_.periods += !relieved_;
         relief_.until = relief_.periods == 1 ? time : relief_.until;
         relief_.least = min(relief_.least, pressure);
-        relief_.share = min(relief_.share, pressure/peak_);
+        relief_.share = min(relief_.share, max(pressure, scalar(0))/peak_);
     }
     else if (relief_.periods)
     {
