@@ -156,7 +156,7 @@ Foam::List<Foam::vectorField> Foam::wallConditions::onFaces
 
     // First nodes of one wall, then edges, then corners: there a face has the
     // pressure of its cell and the mean shear of its other nodes, and walls take
-    // the rest along their normals; what these do not span acts on all alike
+    // the rest along their normals; what these do not span acts on all equally
     List<vectorField> result(walls_.size()), sum(walls_.size());
     List<scalarField> count(walls_.size());
     forAll(walls_, patchi)

@@ -173,7 +173,7 @@ static const keyTable sphereWallKeys
             "gap",
             "distance between the wall and the end of the mesh over a diameter:"
             " 0.125 where a bed as dense as inside, without the wider pores"
-            " beside the wall, would hold all spheres", "-", "0 to 0.5", "0"
+            " next to the wall, would hold all spheres", "-", "0 to 0.5", "0"
         },
         {
             "emissivity",

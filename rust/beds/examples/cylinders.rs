@@ -6,6 +6,9 @@
 //! A bed of this solid fraction and conductivity that holds all spheres ends at the distance e before the side, because pores next to it are
 //! wider; from where it ends, the side adds the resistance R. It is printed in d/K, next to the law of walls ([`msdd_beds::wall`]) and e.
 
+#[path = "steady/mod.rs"]
+mod steady;
+
 use msdd_beds::effective::BedMaterial;
 use msdd_beds::named_gases::GasName;
 use msdd_beds::network::{Beside, Materials, Network, Plate, PlateLaw};
@@ -18,6 +21,7 @@ use msdd_beds::wall::{Radiating, Wall};
 use msdd_spheres::law::effective_modulus;
 use msdd_spheres::{Material, Partner, Simulation, Stiffness};
 use std::f64::consts::PI;
+use steady::{line, steady};
 
 const DIAMETER: f64 = 2e-3;
 const T: f64 = 293.15;
@@ -85,7 +89,7 @@ fn report(bed: &Simulation, (over, pressure, seed): (f64, f64, u64), (solid, gas
     let network = network(bed, &conducting, gas, inside);
     let found = network.conductances(&vec![T; bed.spheres.len()], &[T]);
     let volume = PI / 6.0 * DIAMETER.powi(3);
-    let temperatures = steady(bed.spheres.len(), volume, &found.links, &found.plates);
+    let temperatures = steady(vec![volume; bed.spheres.len()], &found.links, &found.plates);
     let between = |k: usize| (heights[0]..heights[1]).contains(&bed.spheres[k].position[2]);
     let points: Vec<[f64; 2]> = (0..bed.spheres.len())
         .map(|k| (k, bed.spheres[k].position[0].hypot(bed.spheres[k].position[1])))
@@ -154,59 +158,4 @@ fn stress_on_side(bed: &Simulation, counts: impl Fn(usize) -> bool) -> f64 {
         }
     });
     sum
-}
-
-/// T of spheres that each release `heat` \[W\] next to a plate of 0 K; conjugate gradients.
-fn steady(
-    count: usize,
-    heat: f64,
-    links: &[(usize, usize, f64)],
-    plates: &[(usize, usize, f64)],
-) -> Vec<f64> {
-    let mut diagonal = vec![1e-12; count];
-    for &(i, j, g) in links {
-        diagonal[i] += g;
-        diagonal[j] += g;
-    }
-    for &(k, _, g) in plates {
-        diagonal[k] += g;
-    }
-    // Spheres that nothing touches have no temperature, and no heat.
-    let mut rest: Vec<f64> = diagonal.iter().map(|d| if *d > 1e-11 { heat } else { 0.0 }).collect();
-    let inner = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
-    let scaled = |r: &[f64]| r.iter().zip(&diagonal).map(|(r, d)| r / d).collect::<Vec<f64>>();
-    let mut t = vec![0.0; count];
-    let mut direction = scaled(&rest);
-    let mut product = inner(&rest, &direction);
-    let first = product;
-    for _ in 0..20 * count {
-        if product <= 1e-22 * first {
-            break;
-        }
-        let mut flow: Vec<f64> = direction.iter().zip(&diagonal).map(|(x, d)| x * d).collect();
-        for &(i, j, g) in links {
-            flow[i] -= g * direction[j];
-            flow[j] -= g * direction[i];
-        }
-        let step = product / inner(&direction, &flow);
-        for k in 0..count {
-            t[k] += step * direction[k];
-            rest[k] -= step * flow[k];
-        }
-        let next = scaled(&rest);
-        let new_product = inner(&rest, &next);
-        direction.iter_mut().zip(next).for_each(|(d, n)| *d = n + new_product / product * *d);
-        product = new_product;
-    }
-    (0..count).map(|k| if diagonal[k] > 1e-11 { t[k] } else { f64::NAN }).collect()
-}
-
-/// Value at 0 and slope of the straight line through points.
-fn line(points: &[[f64; 2]]) -> (f64, f64) {
-    let n = points.len() as f64;
-    let [x, y] = [0, 1].map(|k| points.iter().map(|p| p[k]).sum::<f64>() / n);
-    let product: f64 = points.iter().map(|p| (p[0] - x) * (p[1] - y)).sum();
-    let square: f64 = points.iter().map(|p| (p[0] - x) * (p[0] - x)).sum();
-    let slope = product / square;
-    (y - slope * x, slope)
 }

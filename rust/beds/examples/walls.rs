@@ -9,6 +9,9 @@
 //! By radiation alone the exchange is traced ([`msdd_beds::exchange`]); resistances are in units of 1/(4 σ T³), and F is that of the bed. The law
 //! is fitted to these numbers.
 
+#[path = "steady/mod.rs"]
+mod steady;
+
 use msdd_beds::effective::BedMaterial;
 use msdd_beds::exchange::{Emissivities, Tracing, exchange};
 use msdd_beds::named_gases::GasName;
@@ -21,6 +24,7 @@ use msdd_beds::solid::{Roughness, Solid};
 use msdd_beds::wall::{Radiating, Wall};
 use msdd_spheres::law::effective_modulus;
 use msdd_spheres::{Material, Simulation, Stiffness};
+use steady::{line, steady};
 
 const DIAMETER: f64 = 2e-3;
 const T: f64 = 293.15;
@@ -113,7 +117,10 @@ fn report(bed: &Simulation, pressure: f64, seed: u64, gas: GasName, area: f64) {
 
 /// K and the resistance that each plate adds, by the straight line through the temperatures far from both plates.
 fn ends(bed: &Simulation, found: &Conductances, area: f64) -> [[f64; 2]; 2] {
-    let temperatures = steady(bed.spheres.len(), &found.links, &found.plates);
+    // From plates of 0 and 1 K
+    let mut heat = vec![0.0; bed.spheres.len()];
+    found.plates.iter().for_each(|&(k, plate, g)| heat[k] += g * plate as f64);
+    let temperatures = steady(heat, &found.links, &found.plates);
     let top = bed.boundary.walls()[WALLS[1]].point[2];
     let inside: Vec<[f64; 2]> = (bed.spheres.iter().zip(&temperatures))
         .map(|(sphere, &t)| [sphere.position[2], t])
@@ -150,52 +157,4 @@ fn radiation(bed: &Simulation, area: f64) -> Result<(), Box<dyn std::error::Erro
         }
     }
     Ok(())
-}
-
-/// T of spheres between plates of 0 and 1 K, at which no heat stays at any sphere; conjugate gradients.
-fn steady(count: usize, links: &[(usize, usize, f64)], plates: &[(usize, usize, f64)]) -> Vec<f64> {
-    let mut diagonal = vec![1e-12; count];
-    let mut rest = vec![0.0; count];
-    for &(i, j, g) in links {
-        diagonal[i] += g;
-        diagonal[j] += g;
-    }
-    for &(k, plate, g) in plates {
-        diagonal[k] += g;
-        rest[k] += g * plate as f64;
-    }
-    let inner = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
-    let scaled = |r: &[f64]| r.iter().zip(&diagonal).map(|(r, d)| r / d).collect::<Vec<f64>>();
-    let mut t = vec![0.0; count];
-    let mut direction = scaled(&rest);
-    let mut product = inner(&rest, &direction);
-    let first = product;
-    while product > 1e-22 * first {
-        let mut flow: Vec<f64> = direction.iter().zip(&diagonal).map(|(x, d)| x * d).collect();
-        for &(i, j, g) in links {
-            flow[i] -= g * direction[j];
-            flow[j] -= g * direction[i];
-        }
-        let step = product / inner(&direction, &flow);
-        for k in 0..count {
-            t[k] += step * direction[k];
-            rest[k] -= step * flow[k];
-        }
-        let next = scaled(&rest);
-        let new_product = inner(&rest, &next);
-        direction.iter_mut().zip(next).for_each(|(d, n)| *d = n + new_product / product * *d);
-        product = new_product;
-    }
-    // Spheres that nothing touches have no temperature.
-    (0..count).map(|k| if diagonal[k] > 1e-11 { t[k] } else { f64::NAN }).collect()
-}
-
-/// Value at 0 and slope of the straight line through points.
-fn line(points: &[[f64; 2]]) -> (f64, f64) {
-    let n = points.len() as f64;
-    let [x, y] = [0, 1].map(|k| points.iter().map(|p| p[k]).sum::<f64>() / n);
-    let product: f64 = points.iter().map(|p| (p[0] - x) * (p[1] - y)).sum();
-    let square: f64 = points.iter().map(|p| (p[0] - x) * (p[0] - x)).sum();
-    let slope = product / square;
-    (y - slope * x, slope)
 }

@@ -58,7 +58,7 @@ impl PouredBed {
         [known.min, known.max].map(|pressure| pressure * vertical)
     }
 
-    /// Least and largest porosity that the law covers under this stress, to a thousandth; none under a stress that it does not know.
+    /// Least and largest porosity that the law covers under this stress, to a thousandth; none under a stress outside of its range.
     pub fn porosities(&self) -> Option<[f64; 2]> {
         let mut known = TRIED.map(|k| f64::from(k) / 1000.0).filter(|&porosity| self.knows(porosity));
         let least = known.next()?;
