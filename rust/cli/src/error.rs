@@ -23,8 +23,6 @@ pub enum CliError {
     #[error(transparent)]
     Reference(#[from] msdd_dem_reference::ReferenceError),
     #[error(transparent)]
-    Report(#[from] msdd_report::ReportError),
-    #[error(transparent)]
     Rve(#[from] msdd_rve::RveError),
     #[error("{source}; the last good state, after {steps} steps at t = {time} s, is in {file}")]
     Stopped { source: msdd_rve::RveError, file: PathBuf, steps: u64, time: f64 },

@@ -1,5 +1,5 @@
-//! `msdd`: everything in multiscale data-driven simulation but the solver itself: cases, databases, models, references,
-//! reports. The only crate that parses arguments and prints.
+//! `msdd`: everything in multiscale data-driven simulation but the solver itself: cases, databases, models, references. The
+//! only crate that parses arguments and prints.
 #![forbid(unsafe_code)]
 
 #[macro_use]
@@ -13,7 +13,6 @@ mod draw;
 mod error;
 mod progress;
 mod reference;
-mod report;
 mod rve;
 mod score;
 mod simd;
@@ -71,18 +70,17 @@ enum Command {
     /// Errors of thermal strains in one step and in many, and, for a model with a mechanical tangent, errors along the paths
     /// of strain of periodic boxes, by kind of path and number of grains.
     Score(score::Arguments),
-    /// Write the report on speed and accuracy, a page with figures; runs the simulations that are missing.
-    Report(report::Arguments),
     /// Compare the solver's results of the six cases with DEM: table, JSON and plot.
     Summary(summary::Arguments),
 }
 
-/// What `examples/comparisons` and `examples/bench` share with the program.
+/// What examples share with the program.
 pub mod shared {
     pub use crate::bed::foam::{files, probes};
     pub use crate::bed::geometry::Geometry;
     pub use crate::case::{attempt, beside, checkout};
     pub use crate::error::CliError;
+    pub use crate::progress::Progress;
     pub use crate::rve::{read_state, write_state};
     pub use crate::simd::SimdArgument;
     pub use crate::threads::parser as threads_parser;
@@ -105,7 +103,6 @@ pub fn run() -> ExitCode {
         Command::Reference(command) => reference::run(&command),
         Command::Train(arguments) => train::run(&arguments),
         Command::Score(arguments) => score::run(&arguments),
-        Command::Report(arguments) => report::run(&arguments),
         Command::Summary(arguments) => summary::run(&arguments),
     };
     let mut code = ExitCode::SUCCESS;

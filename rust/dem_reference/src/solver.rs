@@ -1,5 +1,5 @@
 //! Reads the solver's results from a case folder: time series, sub-regions, the summary. They are written by the function
-//! objects that the jobs of `msdd report` have: `spaceProbes`, `wallPressure`, `subRegions`, `columns`.
+//! objects that the jobs of `scripts/report` have: `spaceProbes`, `wallPressure`, `subRegions`, `columns`.
 
 use crate::ReferenceError;
 use msdd_case::tables::{self, Table};

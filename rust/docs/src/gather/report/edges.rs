@@ -5,7 +5,7 @@ use crate::gather::json::Json;
 use crate::gather::print::{decimals, or_none, power, two};
 use crate::results::Section;
 
-/// Written by `msdd report`.
+/// Written by `scripts/report`.
 pub const FILE: &str = "results/report.json";
 
 /// Largest stable steps of the engine: predicted and measured.

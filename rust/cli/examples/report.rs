@@ -1,8 +1,7 @@
-//! `msdd report`: the report on speed and accuracy, as a page and as JSON.
+//! Writes the report on speed and accuracy, as a page and as JSON. `scripts/report` runs it.
 
-use crate::error::CliError;
-use crate::progress::Progress;
-use clap::Args;
+use clap::Parser;
+use msdd_cli::shared::{CliError, Progress};
 use msdd_report::case::CaseReport;
 use msdd_report::jobs::cache::{Cache, programs};
 use msdd_report::jobs::execute::{Place, Stamp};
@@ -10,10 +9,12 @@ use msdd_report::jobs::pool;
 use msdd_report::report::{Made, Report, make};
 use msdd_report::settings::Settings;
 use msdd_report::{case, page};
+use std::error::Error;
 use std::path::{Path, PathBuf};
-use std::process::Command;
+use std::process::{Command, ExitCode};
 
-#[derive(Args)]
+/// Write the report on speed and accuracy, a page with figures; runs the simulations that are missing.
+#[derive(Parser)]
 #[command(
     after_help = "Needs a checkout whose solver is built (scripts/report does all that is needed). The result of each simulation \
 is kept in the cache under everything that it depends on (program, inputs, parameters): a second run takes it from there, and a \
@@ -24,9 +25,9 @@ move, and as msdd case solve chooses it; each run is compared with one that is 4
 --discs, with DEM of the same box. Copies are next to the case while they run; the case itself stays as it is. \
 It needs its mesh (blockMesh).
 
-Example: msdd report --case cases/HC --quick"
+Example: scripts/report --case cases/HC --quick"
 )]
-pub struct Arguments {
+struct Arguments {
     /// Few configurations, one packing and coarse meshes, as for the tests.
     #[arg(long)]
     quick: bool,
@@ -57,18 +58,24 @@ pub struct Arguments {
     jobs: u32,
 }
 
-pub fn run(arguments: &Arguments) -> Result<(), CliError> {
+fn main() -> ExitCode {
+    let Err(error) = run(&Arguments::parse()) else { return ExitCode::SUCCESS };
+    eprintln!("report: {error}");
+    ExitCode::FAILURE
+}
+
+fn run(arguments: &Arguments) -> Result<(), Box<dyn Error>> {
     let checkout = std::env::current_dir().map_err(|e| CliError::Message(format!("current folder: {e}")))?;
     let missing = |needed: &Path| {
         CliError::Message(format!("{} is missing: run scripts/report, in the checkout", needed.display()))
     };
     let reference = Path::new("cases/reference/results");
     if !checkout.join(reference).exists() {
-        return Err(missing(reference));
+        return Err(missing(reference).into());
     }
     let programs = programs(&checkout)?;
     if let Some(program) = programs.first().filter(|program| !program.exists()) {
-        return Err(missing(program));
+        return Err(missing(program).into());
     }
     let targets = Targets::of(arguments)?;
     let settings = settings(arguments, &checkout, &programs)?;
@@ -91,8 +98,8 @@ pub fn run(arguments: &Arguments) -> Result<(), CliError> {
     if let Some((_, progress)) = &progress {
         progress.finish();
     }
-    outln!("{said}");
-    outln!("page: {}   figures: {}", targets.page.display(), targets.json.display());
+    println!("{said}");
+    println!("page: {}   figures: {}", targets.page.display(), targets.json.display());
     Ok(())
 }
 
@@ -136,20 +143,20 @@ impl Targets {
         self.json.with_extension("csv")
     }
 
-    fn write(&self, json: &impl serde::Serialize, page: &str) -> Result<(), CliError> {
+    fn write(&self, json: &impl serde::Serialize, page: &str) -> Result<(), Box<dyn Error>> {
         let json = serde_json::to_string_pretty(json).map_err(|e| CliError::Message(e.to_string()))?;
         msdd_report::write_text(&self.json, &json)?;
         Ok(msdd_report::write_text(&self.page, page)?)
     }
 
-    fn write_paper(&self, made: &Made) -> Result<String, CliError> {
+    fn write_paper(&self, made: &Made) -> Result<String, Box<dyn Error>> {
         let report = &made.report;
         self.write(report, &page::text(made)?)?;
         msdd_report::write_text(&self.spheres(), &page::spheres(made)?)?;
         Ok(format!("{} jobs, {} from the cache\n{}", report.jobs, report.cached_jobs, judged(report)))
     }
 
-    fn write_case(&self, report: CaseReport) -> Result<String, CliError> {
+    fn write_case(&self, report: CaseReport) -> Result<String, Box<dyn Error>> {
         self.write(&report, &page::case(&report)?)?;
         msdd_report::write_text(&self.csv(), &page::table(&report)?)?;
         let done = report.rows.iter().filter(|row| row.errors.temperature.is_some()).count();
@@ -182,7 +189,9 @@ fn judged(report: &Report) -> String {
 }
 
 fn settings(arguments: &Arguments, checkout: &Path, programs: &[PathBuf]) -> Result<Settings, CliError> {
-    let msdd = std::env::current_exe().map_err(|e| CliError::Message(format!("path of msdd: {e}")))?;
+    let msdd =
+        std::env::current_exe().map_err(|e| CliError::Message(format!("path of this program: {e}")))?;
+    let msdd = msdd.with_file_name("../msdd");
     let cpu = processor();
     let cache = checkout.join(&arguments.cache);
     let stamp = Stamp { date: date(), commit: commit(checkout), cpu: cpu.clone() };
