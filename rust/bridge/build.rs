@@ -8,7 +8,13 @@ fn main() {
         .flag("-frounding-math")
         .std("c++11")
         .compile("msdd-bridge");
-    for file in ["src/bridge.cpp", "src/bridge.hpp", "../capi/include/msdd.h", "../../openfoam/msdd.hpp"] {
+    for file in [
+        "src/bridge.cpp",
+        "src/bridge.hpp",
+        "../capi/include/msdd.h",
+        "../capi/include/msdd_v4.h",
+        "../../openfoam/msdd.hpp",
+    ] {
         println!("cargo:rerun-if-changed={file}");
     }
 }
