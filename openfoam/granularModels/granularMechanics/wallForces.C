@@ -124,6 +124,56 @@ void Foam::wallConstraints::addPressure
 }
 
 
+void Foam::wallConstraints::takeAlong
+(
+    const across& held,
+    scalarField& force,
+    scalarField& along
+) const
+{
+    const label dim = mesh_.dim();
+    forAll(held.nodes, i)
+    {
+        const label node = held.nodes[i];
+        for (label k = 0; k < held.directions[i]; ++k)
+        {
+            const scalar* e = held.basis.cdata() + dim*dim*i + dim*k;
+            const scalar part = component(force, node, e);
+            for (label j = 0; j < dim; ++j)
+            {
+                along[dim*node + j] += part*e[j]/held.squares[dim*i + k];
+                force[dim*node + j] -= part*e[j];
+            }
+        }
+    }
+}
+
+
+Foam::scalarField
+Foam::wallConstraints::areas(const elementMesh::wallFaces& faces) const
+{
+    scalarField result(faces.size());
+    scalarField weights;
+    forAll(result, i)
+    {
+        const label start = faces.start[i];
+        const label size = faces.start[i + 1] - start;
+        weights.resize(max(weights.size(), 3*size));
+        mesh_.faceWeights
+        (
+            mesh_.points(), faces.nodes.cdata() + start, size, weights.data()
+        );
+        vector whole(Zero);
+        for (label a = 0; a < size; ++a)
+        {
+            whole += mesh_.vectorAt(weights, a);
+        }
+        result[i] = mag(whole);
+    }
+    return result;
+}
+
+
 Foam::List<Foam::vectorField> Foam::wallConditions::onFaces
 (
     const List<scalarField>& stress,
@@ -209,20 +259,7 @@ Foam::List<Foam::vectorField> Foam::wallConditions::onFaces
         });
         mesh_.sum(taken);
         scalarField rest(force - taken);
-        forAll(held.nodes, i)
-        {
-            const label node = held.nodes[i];
-            for (label k = 0; k < held.directions[i]; ++k)
-            {
-                const scalar* e = held.basis.cdata() + dim*dim*i + dim*k;
-                const scalar part = component(rest, node, e);
-                for (label j = 0; j < dim; ++j)
-                {
-                    along[dim*node + j] += part*e[j]/held.squares[dim*i + k];
-                    rest[dim*node + j] -= part*e[j];
-                }
-            }
-        }
+        takeAlong(held, rest, along);
         each([&](label patchi, label face, label i, scalar part, const vector& t)
         {
             const label node = walls.node(i);
@@ -240,26 +277,11 @@ Foam::List<Foam::vectorField> Foam::wallConditions::onFaces
         });
     }
 
-    scalarField weights;
     forAll(walls_, patchi)
     {
-        const elementMesh::wallFaces& faces = mesh_.wall(patchi);
-        for (label i = 0; carries[patchi] && i < faces.size(); ++i)
+        if (carries[patchi])
         {
-            const label start = faces.start[i];
-            const label size = faces.start[i + 1] - start;
-            weights.resize(max(weights.size(), 3*size));
-            mesh_.faceWeights
-            (
-                mesh_.points(), faces.nodes.cdata() + start, size,
-                weights.data()
-            );
-            vector whole(Zero);
-            for (label a = 0; a < size; ++a)
-            {
-                whole += mesh_.vectorAt(weights, a);
-            }
-            result[patchi][i] /= mag(whole);
+            result[patchi] /= areas(mesh_.wall(patchi));
         }
     }
     return result;

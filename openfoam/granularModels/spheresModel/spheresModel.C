@@ -15,8 +15,6 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "spheresModel.H"
-#include "givenField.H"
-#include "volFields.H"
 #include "addToRunTimeSelectionTable.H"
 
 // * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
@@ -29,176 +27,8 @@ namespace granularModels
     addToRunTimeSelectionTable(granularModel, spheres, dictionary);
 }
 
-const keyTable granularModels::spheres::keys
-(
-    "spheresCoeffs",
-    {
-        {
-            "model",
-            "`builtin`: the model that is compiled into the library. Else a"
-            " model file of spheres, relative to the case folder", "-",
-            "builtin, a readable model file", "builtin"
-        },
-        {"hash", "as in `networkCoeffs`", "-", "the hash of the file", "any"},
-        {
-            "poissonRatio", "Poisson's ratio of the spheres", "-",
-            "-0.99 to 0.5", "required"
-        },
-        {
-            "roughness",
-            "height of the asperities of the spheres (root mean square) over"
-            " their slope; 0: smooth", "m", "0 to 1", "0"
-        },
-        {
-            "hardness",
-            "hardness of the surface: rough contacts conduct by it, and the run"
-            " warns if contacts are pressed harder", "Pa", "1 to 1e15",
-            "required with `roughness`"
-        },
-        {
-            "crushLoad",
-            "force between plates at which a sphere breaks: the run warns if"
-            " contacts are pressed harder", "N", "1e-12 to 1e12",
-            "not compared"
-        },
-        {
-            "gas",
-            "gas between the spheres. Properties are valid from 200 to 2000 K,"
-            " of helium from 273 to 1800 K. Spheres that conduct less than the"
-            " gas are refused; poor conductors have [their own"
-            " model](../theory/spheres-law.md#poor-conductors)", "-",
-            "air, nitrogen, helium, argon, vacuum", "vacuum"
-        },
-        {
-            "gasPressure",
-            "pressure of the gas. In very thin gas, whose conductivity is"
-            " proportional to its pressure, the model has an error of up to a"
-            " factor of two", "Pa", "1e-3 to 1e9", "1.013e5"
-        },
-        {
-            "accommodation",
-            "thermal accommodation coefficient of the gas at the spheres", "-",
-            "0.01 to 1", "0.9"
-        },
-        {
-            "emissivity",
-            "emissivity of the spheres, which are opaque, grey and diffuse, a"
-            " number or a function of T, as `thermalConductivity`: above"
-            " 0 they conduct by"
-            " [radiation](../theory/spheres-law.md#radiation), too. At 0 the run"
-            " warns where radiation would add more than 2 % to the conductivity",
-            "-", "0 to 1", "0"
-        },
-        {
-            "radiation", "off: without radiation, whatever the emissivity",
-            "-", "on, off", "on"
-        },
-        {
-            "sizeSpread",
-            "standard deviation of the diameters over their mean, both weighted"
-            " by surface; `meanRadius` is half the mean. The model is then"
-            " [that of equal spheres](../theory/spheres-law.md#unequal-spheres)"
-            " of a lower solid fraction", "-", "0 to 0.25", "0"
-        },
-        {
-            "friction",
-            "coefficient of friction between the spheres: the shipped law is"
-            " trained at 0.3 and [was compared](../quality/spheres.md#other-frictions)"
-            " within this range", "-", "0.2 to 0.5", "0.3"
-        },
-        {
-            "coordination",
-            "contacts per sphere at the start, all spheres counted. A field"
-            " `coordination` replaces it", "-", "0 to 12",
-            "as in a periodic box in this state; beds under gravity have"
-            " about 0.4 more"
-        },
-        {
-            "mobilised",
-            "[mobilised part of the"
-            " friction](../theory/spheres-law.md#mobilised-friction) at the"
-            " start: 0.84 to 0.91 in poured beds (`msdd bed run` counts it), 1"
-            " in boxes compressed with friction. A field `mobilised` replaces"
-            " it", "-", "0 to 1", "0.85"
-        },
-        {
-            "fabric",
-            "[fabric tensor](../theory/spheres-law.md#state) at the start, mean"
-            " of the dyads of the contact normals, (xx xy xz yy yz zz);"
-            " `msdd bed run` counts it. A field `fabric` replaces it", "-",
-            "xx, yy, zz >= 0, their sum 1", "follows from the stress"
-        },
-        {
-            "wall",
-            "walls where T has the condition"
-            " [`granularWall`](fields.md#walls-with-their-resistance) or"
-            " [`granularContact`](regions.md#the-resistance-of-a-wall)", "-",
-            "a dictionary", "none"
-        }
-    }
-);
-
-static const keyTable sphereWallKeys
-(
-    "wall of spheresCoeffs",
-    {
-        {
-            "thermalConductivity", "thermal conductivity of the wall",
-            "W/(m K)", "1e-12 to 1e12", "required"
-        },
-        {
-            "youngModulus", "Young's modulus of the wall", "Pa",
-            "1e-9 to 1e15", "required"
-        },
-        {
-            "poissonRatio", "Poisson's ratio of the wall", "-", "-0.99 to 0.5",
-            "required"
-        },
-        {
-            "roughness",
-            "height of the asperities of sphere and wall together over their"
-            " slope; 0: smooth", "m", "0 to 1", "0"
-        },
-        {
-            "hardness", "hardness of the softer one; read with `roughness`",
-            "Pa", "1 to 1e15", "required with `roughness`"
-        },
-        {
-            "spheres",
-            "spheres at the wall per square of a diameter: 0.85 to 0.87 along a"
-            " wall of a poured bed, 1.155 in a hexagonal layer", "-",
-            "0.01 to 1.16", "0.87"
-        },
-        {
-            "gap",
-            "distance between the wall and the end of the mesh over a diameter:"
-            " 0.125 where a bed as dense as inside, without the wider pores"
-            " next to the wall, would hold all spheres", "-", "0 to 0.5", "0"
-        },
-        {
-            "emissivity",
-            "emissivity of the wall, which exchanges radiation with spheres that"
-            " radiate", "-", "0 to 1", "as of the spheres"
-        }
-    }
-);
-
 //- Resistance of a wall to which nothing conducts, as of the library [m2 K/W]
 static const scalar nothing = 1e9;
-
-//- Change of the stress at the start, over the pressure, that is reported
-static const scalar notable = 1e-3;
-
-//- By how much the trace of a fabric may differ from 1: it is given rounded
-static const scalar unitTrace = 0.01;
-
-//- Contacts per sphere between which packings under load are: without rattlers
-//- spheres with friction need four, and dense random packings have seven
-static const scalar leastContacts = 2, mostContacts = 9;
-
-//- Largest usual share of a direction in the fabric: of one third in boxes,
-//- poured beds have up to 0.37, strongly sheared ones 0.45
-static const scalar mostFabric = 0.45;
 
 //- Emissivity of ceramics and of oxidised metals, taken where none is given
 static const scalar usualEmissivity = 0.9;
@@ -244,7 +74,7 @@ Foam::granularModels::spheres::spheres
     {
         wallGap_ =
             2*properties_.meanRadius().value()
-           *sphereWallKeys.number(coeffs_.subDict("wall"), "gap");
+           *wallKeys.number(coeffs_.subDict("wall"), "gap");
     }
     keys.check(coeffs_);
 }
@@ -298,198 +128,26 @@ msdd_sphere_wall Foam::granularModels::spheres::wall() const
         return result;
     }
     const dictionary& dict = coeffs_.subDict("wall");
-    sphereWallKeys.check(dict);
+    wallKeys.check(dict);
     result.struct_size = sizeof(msdd_sphere_wall);
-    result.conductivity = sphereWallKeys.number(dict, "thermalConductivity");
-    result.young_modulus = sphereWallKeys.number(dict, "youngModulus");
-    result.poisson_ratio = sphereWallKeys.number(dict, "poissonRatio");
-    result.roughness = sphereWallKeys.number(dict, "roughness");
+    result.conductivity = wallKeys.number(dict, "thermalConductivity");
+    result.young_modulus = wallKeys.number(dict, "youngModulus");
+    result.poisson_ratio = wallKeys.number(dict, "poissonRatio");
+    result.roughness = wallKeys.number(dict, "roughness");
     if (result.roughness > 0)
     {
         const word key("hardness");
         result.hardness =
-            sphereWallKeys.within(dict, key, dict.get<scalar>(key));
+            wallKeys.within(dict, key, dict.get<scalar>(key));
     }
-    result.spheres = sphereWallKeys.number(dict, "spheres");
+    result.spheres = wallKeys.number(dict, "spheres");
     result.emissivity =
-        sphereWallKeys.number(dict, "emissivity", grains_.emissivity);
+        wallKeys.number(dict, "emissivity", grains_.emissivity);
     return result;
 }
 
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
-
-void Foam::granularModels::spheres::initialState
-(
-    const known& cells,
-    scalar* const* state
-)
-{
-    if (!cells.stress)
-    {
-        FatalErrorInFunction
-            << "Field stress is missing in "
-            << (mesh_.time().path()/mesh_.time().timeName()).c_str()
-            << ": surrogate type spheres needs the stress at the start [Pa],"
-            << " tension positive, for example (-2000 0 0 -2000 0 -2000) of the"
-            << " weight of a bed. Without it contacts and stiffness are"
-            << " undetermined" << exit(FatalError);
-    }
-    scalarField solid(cells.size);
-    scalar tension = 0;
-    label tense = 0;
-    forAll(solid, celli)
-    {
-        solid[celli] = 1 - cells.porosity[celli];
-        const scalar p = tr(cells.stress[celli])/3;
-        tense += p < 0;
-        tension = max(tension, -p);
-    }
-    if (returnReduce(tense, sumOp<label>()))
-    {
-        FatalErrorInFunction
-            << "Field stress in "
-            << (mesh_.time().path()/mesh_.time().timeName()).c_str()
-            << " is tension in " << returnReduce(tense, sumOp<label>())
-            << " cells, in the mean of the directions up to "
-            << returnReduce(tension, maxOp<scalar>()) << " Pa, allowed: at most"
-            << " 0, because grains cannot carry tension. Tension is positive:"
-            << " the stress of a bed under load is negative" << exit(FatalError);
-    }
-    // What is not given is left to the law
-    const auto given = [&](const char* key)
-    {
-        scalarField result;
-        if (coeffs_.found(key))
-        {
-            result.resize(cells.size, keys.number(coeffs_, key));
-        }
-        return result;
-    };
-    const scalarField contacts(given("coordination"));
-    if
-    (
-        contacts.size()
-     && (contacts[0] < leastContacts || contacts[0] > mostContacts)
-    )
-    {
-        WarningInFunction
-            << "Entry 'coordination' of spheresCoeffs is " << contacts[0]
-            << ": random packings under load have from " << leastContacts
-            << " to " << mostContacts << " contacts per sphere" << nl << endl;
-    }
-    // The stress of a packing depends on it, so a field cannot just replace the
-    // column afterwards
-    scalarField mobilised(given("mobilised"));
-    const auto ofCells(givenField<scalar>(mesh_, "mobilised", dimless));
-    if (ofCells.valid())
-    {
-        mobilised = ofCells().primitiveField();
-    }
-    const symmTensorField fabric(fabricAtStart(cells.size));
-    const std::vector<msdd_input> directions
-    (
-        tensors<msdd_input>(fabric.empty() ? nullptr : fabric.cdata())
-    );
-    const std::vector<msdd_input> load(tensors<msdd_input>(cells.stress));
-    const auto column = [](const scalarField& values)
-    {
-        return msdd::input(values.empty() ? nullptr : values.cdata());
-    };
-    msdd_start data(msdd::start(cells.size, 6));
-    data.solid_fraction = msdd::input(solid.cdata());
-    data.stress = load.data();
-    data.coordination = column(contacts);
-    data.mobilised = column(mobilised);
-    data.fabric = msdd::table(directions);
-    start(data, grains_, state);
-    reportStart(cells.size, cells.stress, state);
-}
-
-
-Foam::symmTensorField
-Foam::granularModels::spheres::fabricAtStart(const label size) const
-{
-    symmTensorField given;
-    symmTensor everywhere;
-    if (coeffs_.readIfPresent("fabric", everywhere))
-    {
-        given.resize(size, everywhere);
-    }
-    const auto ofCells(givenField<symmTensor>(mesh_, "fabric", dimless));
-    if (ofCells.valid())
-    {
-        given = ofCells().primitiveField();
-    }
-    scalar most = 0;
-    for (const symmTensor& F : given)
-    {
-        most = max(most, max(F.xx(), max(F.yy(), F.zz())));
-        // A mean of squares: along no direction is it negative
-        const bool possible =
-            min(F.xx(), min(F.yy(), F.zz())) >= 0
-         && sqr(F.xy()) <= F.xx()*F.yy()
-         && sqr(F.xz()) <= F.xx()*F.zz()
-         && sqr(F.yz()) <= F.yy()*F.zz()
-         && det(F) >= -SMALL;
-        if (!(possible && mag(tr(F) - 1) <= unitTrace))
-        {
-            OStringStream value;
-            value << F;
-            refuse
-            (
-                "fabric",
-                value.str(),
-                "the mean of n n over the contacts, with the normals n:"
-                " (xx xy xz yy yz zz) with xx + yy + zz = 1, and along no"
-                " direction negative"
-            );
-        }
-    }
-    reduce(most, maxOp<scalar>());
-    if (most > mostFabric)
-    {
-        WarningInFunction
-            << "Entry 'fabric' of spheresCoeffs has a component of " << most
-            << ": random packings have up to " << mostFabric
-            << ", isotropic ones 1/3" << nl << endl;
-    }
-    return given;
-}
-
-
-void Foam::granularModels::spheres::reportStart
-(
-    const label size,
-    const symmTensor* given,
-    scalar* const* state
-) const
-{
-    symmTensorField found(size);
-    query start;
-    start.size = size;
-    start.state = state;
-    start.stress = found.data();
-    columns all(columnsOf(start));
-    surrogateModel::advance(all, grains_);
-    scalar most = 0;
-    for (label celli = 0; celli < size; ++celli)
-    {
-        const scalar p = tr(given[celli])/3;
-        if (p > 0)
-        {
-            most = max(most, cmptMax(cmptMag(found[celli] - given[celli]))/p);
-        }
-    }
-    reduce(most, maxOp<scalar>());
-    if (most > notable)
-    {
-        Info<< "The stress at the start is more than packings of this porosity"
-            << " carry: it is changed by up to " << most << " of the pressure, to"
-            << " what the law allows" << nl << endl;
-    }
-}
-
 
 Foam::label Foam::granularModels::spheres::advance(const query& cells)
 {
