@@ -9,7 +9,7 @@ use msdd_beds::effective::{BedMaterial, BedState, MIN_NUMBER, MIN_RATIO};
 use msdd_beds::gas::Gas;
 use msdd_beds::named_gases::GasName;
 use msdd_beds::radiation::{Dark, black, part};
-use msdd_beds::sizes::{MAX_SPREAD, equal_density, gas_factor};
+use msdd_beds::sizes::{MAX_SPREAD, equal_density, gas_factor, more_contacts};
 use msdd_beds::solid::{Roughness, Solid};
 use msdd_beds::wall::Radiating;
 
@@ -19,8 +19,9 @@ pub(crate) struct Material {
     bed: BedMaterial,
     /// ε, 0: without radiation.
     emissivity: f64,
-    /// φ of equal spheres that are like these, over φ, and what the gas conducts over that between those.
+    /// φ of equal spheres that are like these, over φ; their contacts less those of these; and what the gas conducts over that between those.
     density: f64,
+    more_contacts: f64,
     more_gas: f64,
 }
 
@@ -106,7 +107,13 @@ impl Material {
         let spread = ranged("material.size_spread", given.size_spread, [0.0, MAX_SPREAD], &allowed)?;
         let solid = Solid { conductivity, effective_modulus, roughness };
         let bed = BedMaterial { radius, solid, gas, gas_pressure, accommodation };
-        Ok(Self { bed, emissivity, density: equal_density(spread), more_gas: gas_factor(spread) })
+        Ok(Self {
+            bed,
+            emissivity,
+            density: equal_density(spread),
+            more_contacts: more_contacts(spread),
+            more_gas: gas_factor(spread),
+        })
     }
 
     /// k_s \[W/(m K)\].
@@ -128,6 +135,11 @@ impl Material {
     /// φ of equal spheres with the properties of these, over φ of these.
     pub fn density(&self) -> f64 {
         self.density
+    }
+
+    /// Contacts per sphere of equal spheres with the properties of these, less those counted in a poured bed of these.
+    pub fn more_contacts(&self) -> f64 {
+        self.more_contacts
     }
 
     pub fn bed(&self) -> &BedMaterial {

@@ -66,7 +66,7 @@ impl BatchModel for Spheres {
                 start.stress[k].map_or(0.0, |column| column.at(cell)) / material.modulus()
             });
             let known = PackingData {
-                coordination: start.coordination.map(|column| column.at(cell)),
+                coordination: start.coordination.map(|column| column.at(cell) + material.more_contacts()),
                 mobilised: start.mobilised.map(|column| column.at(cell)),
                 fabric: (!start.fabric.is_empty()).then(|| std::array::from_fn(|k| start.fabric[k].at(cell))),
             };

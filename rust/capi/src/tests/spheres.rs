@@ -36,18 +36,24 @@ const STEEL: msdd_grains = msdd_grains {
 /// States of packings under a growing pressure, with one that carries nothing.
 fn start(law: &Model, cells: usize) -> Vec<Vec<f64>> {
     let solid: Vec<f64> = (0..cells).map(|cell| 0.6 + 1e-3 * cell as f64).collect();
-    start_of(law, &STEEL, &solid)
+    start_of(law, &STEEL, &solid, None)
 }
 
-/// The same with these solid fractions.
-fn start_of(law: &Model, material: &msdd_grains, solid: &[f64]) -> Vec<Vec<f64>> {
+/// The same with these solid fractions and so many contacts per sphere, if they were counted.
+fn start_of(law: &Model, material: &msdd_grains, solid: &[f64], counted: Option<f64>) -> Vec<Vec<f64>> {
     let cells = solid.len();
     let column = |share: f64| (0..cells).map(|cell| share * 1e5 * cell as f64).collect::<Vec<f64>>();
     let stress = [1.0, 0.9, 1.2, 0.05, 0.0, -0.04].map(column);
     let mut state = vec![vec![-7.0; cells]; law.columns()];
     let (stress, columns) = (inputs(&stress), outputs(&mut state));
-    let start =
-        msdd_start { cells, solid_fraction: input(solid), stress: stress.as_ptr(), ..SPHERES_AT_START };
+    let contacts = counted.map(|counted| vec![counted; cells]);
+    let start = msdd_start {
+        cells,
+        solid_fraction: input(solid),
+        stress: stress.as_ptr(),
+        coordination: contacts.as_deref().map_or(NOT_GIVEN, input),
+        ..SPHERES_AT_START
+    };
     // SAFETY: live, columns of `cells` values.
     let status = unsafe { msdd_model_initial_state(law.0, material, &start, columns.as_ptr()) };
     assert_eq!(status, MSDD_OK, "{}", last_error());
@@ -83,14 +89,21 @@ fn conductivity_of_the_spheres_can_differ_between_cells() {
     assert!(mixed[1] < usual[1]);
 }
 
-/// Unequal spheres of φ are equal ones of φ (1 − 0.62 s²), and their own φ is answered; it changes with the volume alone.
+/// Unequal spheres of φ are equal ones of φ (1 − 0.62 s²), and their own φ is answered; it changes with the volume alone. To contacts that
+/// were counted 5.4 s² are added.
 #[test]
 fn unequal_spheres_are_equal_ones_of_a_lower_solid_fraction() {
     let law = builtin();
     let (spread, solid) = (0.25, [0.62, 0.61]);
     let unequal = msdd_grains { size_spread: spread, ..STEEL };
-    let state = start_of(&law, &unequal, &solid);
-    assert_eq!(state, start_of(&law, &STEEL, &solid.map(|solid| (1.0 - 0.62 * spread * spread) * solid)));
+    let equal = solid.map(|solid| (1.0 - 0.62 * spread * spread) * solid);
+    let state = start_of(&law, &unequal, &solid, None);
+    assert_eq!(state, start_of(&law, &STEEL, &equal, None));
+    let added = 5.4 * spread * spread;
+    assert_eq!(
+        start_of(&law, &unequal, &solid, Some(4.5)),
+        start_of(&law, &STEEL, &equal, Some(4.5 + added))
+    );
     let (columns, small) = (inputs(&state), [-1e-3; 2]);
     let zeros = [0.0; 2];
     let strain = [input(&small), input(&zeros), input(&zeros), input(&zeros), input(&zeros), input(&zeros)];

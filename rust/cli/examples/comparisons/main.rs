@@ -1,5 +1,5 @@
 //! Compares the solver with DEM in the scenes and beds of a plan, fits its error bands, and finds the ranges that were compared.
-//! `cases/scenes/make`, `cases/beds/make` and `cases/hot/make` run it.
+//! `cases/scenes/make`, `cases/beds/make` and `cases/common/compare-beds` run it.
 //!
 //! ```sh
 //! cargo run --release -p msdd-cli --example comparisons -- scenes --help

@@ -46,17 +46,20 @@ pub fn section(root: &Path) -> Result<Section, DocsError> {
     Ok(section)
 }
 
-/// Hot beds that radiate.
+/// Hot beds that radiate, and beds of unequal spheres.
 ///
 /// # Errors
 /// As [`section`].
-pub fn hot(root: &Path) -> Result<Section, DocsError> {
+pub fn more(root: &Path) -> Result<Section, DocsError> {
     let mut section = Section::default();
     errors(
         &mut section,
         root,
         ("hot-errors", "the solver compared with hot beds of spheres, rms", "cases/hot"),
     )?;
+    let unequal =
+        ("unequal-errors", "the solver compared with beds of unequal spheres, rms", "cases/unequal");
+    errors(&mut section, root, unequal)?;
     Ok(section)
 }
 

@@ -24,7 +24,7 @@ pub const SECTIONS: [(&str, Make); 9] = [
     ("beds", beds::section),
     ("cases", cases::section),
     ("database", database::section),
-    ("hot", beds::hot),
+    ("more-beds", beds::more),
     ("report", report::section),
     ("solver", speed::solver),
     ("speed", speed::section),
