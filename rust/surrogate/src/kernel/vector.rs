@@ -9,6 +9,38 @@ pub const LANES: usize = 16;
 /// One quantity of a block of cells.
 pub type Lanes = [f64; LANES];
 
+/// A part of the work on blocks of cells that is compiled as a function of its own.
+pub trait Part {
+    /// Does the work. As [`Task::run`](super::Task::run), it and all that it calls must be `#[inline(always)]`.
+    fn run(self);
+}
+
+/// Defines a function that lets `$apart` do its work as a [`Part`]. It writes what it finds where it is told: a
+/// block's numbers are too many to be copied.
+macro_rules! part {
+    (
+        $(#[$about:meta])*
+        by $apart:path => fn $name:ident<$life:lifetime, $($generic:ident: $bound:path),*>(
+            $($argument:ident: $type:ty),* $(,)?
+        ) $body:block
+    ) => {
+        $(#[$about])*
+        #[inline(always)]
+        fn $name<$life, $($generic: $bound),*>($($argument: $type),*) {
+            struct Work<$life, $($generic: $bound),*>($($type,)* std::marker::PhantomData<(&$life (), $($generic),*)>);
+            impl<$life, $($generic: $bound),*> $crate::kernel::vector::Part for Work<$life, $($generic),*> {
+                #[inline(always)]
+                fn run(self) {
+                    let Self($($argument,)* _) = self;
+                    $body
+                }
+            }
+            $apart(Work($($argument,)* std::marker::PhantomData::<(&(), $($generic),*)>));
+        }
+    };
+}
+pub(crate) use part;
+
 /// Numbers of one cell or of several. Every operation acts on each cell separately, rounds as IEEE 754 prescribes, and gives the
 /// same bits in all implementations.
 pub trait Arithmetic:
@@ -33,6 +65,9 @@ pub trait Arithmetic:
     fn where_greater(self, than: Self, this: Self, other: Self) -> Self;
     /// Whether `self` > `than` in any cell.
     fn any_greater(self, than: Self) -> bool;
+    /// Does a part of the work in a function of its own, which is compiled for the same instruction set. The compiler needs much
+    /// longer for one long function than for several short ones.
+    fn apart(part: impl Part);
 
     #[inline(always)]
     fn zero() -> Self {
@@ -112,6 +147,10 @@ impl Arithmetic for f64 {
     #[inline(always)]
     fn any_greater(self, than: Self) -> bool {
         self > than
+    }
+    #[inline(never)]
+    fn apart(part: impl Part) {
+        part.run();
     }
 }
 
@@ -218,5 +257,9 @@ impl Arithmetic for Portable {
     #[inline(always)]
     fn any_greater(self, than: Self) -> bool {
         self.0.iter().zip(&than.0).any(|(a, b)| a > b)
+    }
+    #[inline(never)]
+    fn apart(part: impl Part) {
+        part.run();
     }
 }
