@@ -167,7 +167,8 @@ impl Vector for f64 {
     }
 }
 
-/// The implementation for any machine.
+/// The implementation for any machine. On x86-64, where only processors from before 2013 need it, its longer
+/// operations are functions of their own: inlined everywhere they take long to compile.
 #[derive(Clone, Copy)]
 pub struct Portable(Lanes);
 
@@ -217,11 +218,13 @@ impl Arithmetic for Portable {
     fn all(value: f64) -> Self {
         Self([value; LANES])
     }
-    #[inline(always)]
+    #[cfg_attr(target_arch = "x86_64", inline(never))]
+    #[cfg_attr(not(target_arch = "x86_64"), inline(always))]
     fn fused(self, factor: Self, addend: Self) -> Self {
         Self::of(|k| self.0[k].fused(factor.0[k], addend.0[k]))
     }
-    #[inline(always)]
+    #[cfg_attr(target_arch = "x86_64", inline(never))]
+    #[cfg_attr(not(target_arch = "x86_64"), inline(always))]
     fn sqrt(self) -> Self {
         Self(self.0.map(f64::sqrt))
     }
@@ -229,7 +232,8 @@ impl Arithmetic for Portable {
     fn abs(self) -> Self {
         Self(self.0.map(f64::abs))
     }
-    #[inline(always)]
+    #[cfg_attr(target_arch = "x86_64", inline(never))]
+    #[cfg_attr(not(target_arch = "x86_64"), inline(always))]
     fn copysign(self, sign: Self) -> Self {
         Self::of(|k| self.0[k].copysign(sign.0[k]))
     }
@@ -241,20 +245,24 @@ impl Arithmetic for Portable {
     fn at_most(self, other: Self) -> Self {
         Self::of(|k| self.0[k].at_most(other.0[k]))
     }
-    #[inline(always)]
+    #[cfg_attr(target_arch = "x86_64", inline(never))]
+    #[cfg_attr(not(target_arch = "x86_64"), inline(always))]
     fn power_of_low_bits(self) -> Self {
         Self(self.0.map(Arithmetic::power_of_low_bits))
     }
-    #[inline(always)]
+    #[cfg_attr(target_arch = "x86_64", inline(never))]
+    #[cfg_attr(not(target_arch = "x86_64"), inline(always))]
     fn split(self) -> (Self, Self) {
         let both = self.0.map(Arithmetic::split);
         (Self::of(|k| both[k].0), Self::of(|k| both[k].1))
     }
-    #[inline(always)]
+    #[cfg_attr(target_arch = "x86_64", inline(never))]
+    #[cfg_attr(not(target_arch = "x86_64"), inline(always))]
     fn where_greater(self, than: Self, this: Self, other: Self) -> Self {
         Self::of(|k| self.0[k].where_greater(than.0[k], this.0[k], other.0[k]))
     }
-    #[inline(always)]
+    #[cfg_attr(target_arch = "x86_64", inline(never))]
+    #[cfg_attr(not(target_arch = "x86_64"), inline(always))]
     fn any_greater(self, than: Self) -> bool {
         self.0.iter().zip(&than.0).any(|(a, b)| a > b)
     }
