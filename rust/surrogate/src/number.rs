@@ -2,7 +2,7 @@
 //! that the tangent is the derivative of exactly the stress that is answered.
 
 use crate::kernel::elementary;
-use crate::kernel::vector::Arithmetic;
+use crate::kernel::vector::{Arithmetic, Part};
 use std::ops::{Add, Mul, Sub};
 
 pub trait Number: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> {
@@ -17,6 +17,8 @@ pub trait Number: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = 
     fn plus_values(self, addend: Self::Values) -> Self;
     /// `this` where `self` > `than`, `other` elsewhere.
     fn where_above(self, than: Self, this: Self, other: Self) -> Self;
+    /// Does a part of the work, where derivatives make it long by [`Arithmetic::apart`].
+    fn apart(part: impl Part);
 
     /// The same value in all cells.
     #[inline(always)]
@@ -110,6 +112,10 @@ impl<V: Arithmetic> Number for V {
     fn where_above(self, than: Self, this: Self, other: Self) -> Self {
         self.where_greater(than, this, other)
     }
+    #[inline(always)]
+    fn apart(part: impl Part) {
+        part.run();
+    }
 }
 
 /// An array of what a loop gives. A closure would not always be compiled for the instruction set of its caller.
@@ -166,6 +172,10 @@ impl<V: Arithmetic, const D: usize> Number for Dual<V, D> {
             value: a.where_greater(b, this.value, other.value),
             by: each!(k => a.where_greater(b, this.by[k], other.by[k])),
         }
+    }
+    #[inline(always)]
+    fn apart(part: impl Part) {
+        V::apart(part);
     }
 }
 

@@ -8,7 +8,7 @@ use std::sync::atomic::{AtomicU8, Ordering};
 /// Work on blocks of cells, written for any vector type.
 pub trait Task {
     /// Does the work. This method and all functions that it calls with `V` must be `#[inline(always)]`: a function that
-    /// is not inlined would not be compiled for the instruction set.
+    /// is not inlined would not be compiled for the instruction set, unless it is a [`Part`](super::vector::Part).
     fn run<V: Vector>(self);
 }
 

@@ -9,6 +9,38 @@ pub const LANES: usize = 16;
 /// One quantity of a block of cells.
 pub type Lanes = [f64; LANES];
 
+/// A part of the work on blocks of cells that is compiled as a function of its own.
+pub trait Part {
+    /// Does the work. As [`Task::run`](super::Task::run), it and all that it calls must be `#[inline(always)]`.
+    fn run(self);
+}
+
+/// Defines a function that lets `$apart` do its work as a [`Part`]. It writes what it finds where it is told: a
+/// block's numbers are too many to be copied.
+macro_rules! part {
+    (
+        $(#[$about:meta])*
+        by $apart:path => fn $name:ident<$life:lifetime, $($generic:ident: $bound:path),*>(
+            $($argument:ident: $type:ty),* $(,)?
+        ) $body:block
+    ) => {
+        $(#[$about])*
+        #[inline(always)]
+        fn $name<$life, $($generic: $bound),*>($($argument: $type),*) {
+            struct Work<$life, $($generic: $bound),*>($($type,)* std::marker::PhantomData<(&$life (), $($generic),*)>);
+            impl<$life, $($generic: $bound),*> $crate::kernel::vector::Part for Work<$life, $($generic),*> {
+                #[inline(always)]
+                fn run(self) {
+                    let Self($($argument,)* _) = self;
+                    $body
+                }
+            }
+            $apart(Work($($argument,)* std::marker::PhantomData::<(&(), $($generic),*)>));
+        }
+    };
+}
+pub(crate) use part;
+
 /// Numbers of one cell or of several. Every operation acts on each cell separately, rounds as IEEE 754 prescribes, and gives the
 /// same bits in all implementations.
 pub trait Arithmetic:
@@ -33,6 +65,9 @@ pub trait Arithmetic:
     fn where_greater(self, than: Self, this: Self, other: Self) -> Self;
     /// Whether `self` > `than` in any cell.
     fn any_greater(self, than: Self) -> bool;
+    /// Does a part of the work in a function of its own, which is compiled for the same instruction set. The compiler needs much
+    /// longer for one long function than for several short ones.
+    fn apart(part: impl Part);
 
     #[inline(always)]
     fn zero() -> Self {
@@ -113,6 +148,10 @@ impl Arithmetic for f64 {
     fn any_greater(self, than: Self) -> bool {
         self > than
     }
+    #[inline(never)]
+    fn apart(part: impl Part) {
+        part.run();
+    }
 }
 
 impl Vector for f64 {
@@ -128,7 +167,8 @@ impl Vector for f64 {
     }
 }
 
-/// The implementation for any machine.
+/// The implementation for any machine. On x86-64, where only processors from before 2013 need it, its longer
+/// operations are functions of their own: inlined everywhere they take long to compile.
 #[derive(Clone, Copy)]
 pub struct Portable(Lanes);
 
@@ -178,11 +218,13 @@ impl Arithmetic for Portable {
     fn all(value: f64) -> Self {
         Self([value; LANES])
     }
-    #[inline(always)]
+    #[cfg_attr(target_arch = "x86_64", inline(never))]
+    #[cfg_attr(not(target_arch = "x86_64"), inline(always))]
     fn fused(self, factor: Self, addend: Self) -> Self {
         Self::of(|k| self.0[k].fused(factor.0[k], addend.0[k]))
     }
-    #[inline(always)]
+    #[cfg_attr(target_arch = "x86_64", inline(never))]
+    #[cfg_attr(not(target_arch = "x86_64"), inline(always))]
     fn sqrt(self) -> Self {
         Self(self.0.map(f64::sqrt))
     }
@@ -190,7 +232,8 @@ impl Arithmetic for Portable {
     fn abs(self) -> Self {
         Self(self.0.map(f64::abs))
     }
-    #[inline(always)]
+    #[cfg_attr(target_arch = "x86_64", inline(never))]
+    #[cfg_attr(not(target_arch = "x86_64"), inline(always))]
     fn copysign(self, sign: Self) -> Self {
         Self::of(|k| self.0[k].copysign(sign.0[k]))
     }
@@ -202,21 +245,29 @@ impl Arithmetic for Portable {
     fn at_most(self, other: Self) -> Self {
         Self::of(|k| self.0[k].at_most(other.0[k]))
     }
-    #[inline(always)]
+    #[cfg_attr(target_arch = "x86_64", inline(never))]
+    #[cfg_attr(not(target_arch = "x86_64"), inline(always))]
     fn power_of_low_bits(self) -> Self {
         Self(self.0.map(Arithmetic::power_of_low_bits))
     }
-    #[inline(always)]
+    #[cfg_attr(target_arch = "x86_64", inline(never))]
+    #[cfg_attr(not(target_arch = "x86_64"), inline(always))]
     fn split(self) -> (Self, Self) {
         let both = self.0.map(Arithmetic::split);
         (Self::of(|k| both[k].0), Self::of(|k| both[k].1))
     }
-    #[inline(always)]
+    #[cfg_attr(target_arch = "x86_64", inline(never))]
+    #[cfg_attr(not(target_arch = "x86_64"), inline(always))]
     fn where_greater(self, than: Self, this: Self, other: Self) -> Self {
         Self::of(|k| self.0[k].where_greater(than.0[k], this.0[k], other.0[k]))
     }
-    #[inline(always)]
+    #[cfg_attr(target_arch = "x86_64", inline(never))]
+    #[cfg_attr(not(target_arch = "x86_64"), inline(always))]
     fn any_greater(self, than: Self) -> bool {
         self.0.iter().zip(&than.0).any(|(a, b)| a > b)
+    }
+    #[inline(never)]
+    fn apart(part: impl Part) {
+        part.run();
     }
 }

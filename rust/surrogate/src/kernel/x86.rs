@@ -4,7 +4,7 @@
 //! the instruction set and called on machines that have it. This makes the intrinsics below sound.
 #![allow(unsafe_code)]
 
-use super::vector::{Arithmetic, INTEGER, INTEGER_AND_BIAS, MANTISSA, ROOT_HALF, TO_EXPONENT, Vector};
+use super::vector::{Arithmetic, INTEGER, INTEGER_AND_BIAS, MANTISSA, Part, ROOT_HALF, TO_EXPONENT, Vector};
 use std::arch::x86_64::*;
 use std::ops::{Add, Div, Mul, Sub};
 
@@ -19,7 +19,7 @@ macro_rules! each {
 /// A vector type of `$count` registers that hold `$width` lanes each.
 macro_rules! vector {
     (
-        $name:ident: $register:ty, [$($k:literal)*] of $width:literal;
+        $name:ident: $register:ty, [$($k:literal)*] of $width:literal, $features:literal;
         $load:ident $store:ident $set:ident $fused:ident $sqrt:ident $max:ident $min:ident $and:ident $andnot:ident $or:ident;
         $add:ident $sub:ident $mul:ident $div:ident;
         integers: $bits:ident $integers:ident $set_integer:ident $add_integer:ident $right:ident $and_integer:ident $or_integer:ident;
@@ -112,6 +112,16 @@ macro_rules! vector {
                 })*
                 any
             }
+            #[inline(always)]
+            fn apart(part: impl Part) {
+                #[target_feature(enable = $features)]
+                #[inline(never)]
+                fn compiled(part: impl Part) {
+                    part.run();
+                }
+                // SAFETY: see the module.
+                unsafe { compiled(part) };
+            }
         }
     };
     (operator $name:ident, [$($k:literal)*], $trait:ident, $function:ident, $intrinsic:ident) => {
@@ -128,7 +138,7 @@ macro_rules! vector {
 macro_rules! avx512 {
     ($name:ident, [$($k:literal)*]) => {
         vector! {
-            $name: __m512d, [$($k)*] of 8;
+            $name: __m512d, [$($k)*] of 8, "avx512f,avx512dq,fma";
             _mm512_loadu_pd _mm512_storeu_pd _mm512_set1_pd _mm512_fmadd_pd _mm512_sqrt_pd _mm512_max_pd _mm512_min_pd
                 _mm512_and_pd _mm512_andnot_pd _mm512_or_pd;
             _mm512_add_pd _mm512_sub_pd _mm512_mul_pd _mm512_div_pd;
@@ -149,7 +159,7 @@ avx512!(OneAvx512, [0]);
 macro_rules! avx2 {
     ($name:ident, [$($k:literal)*]) => {
         vector! {
-            $name: __m256d, [$($k)*] of 4;
+            $name: __m256d, [$($k)*] of 4, "avx2,fma";
             _mm256_loadu_pd _mm256_storeu_pd _mm256_set1_pd _mm256_fmadd_pd _mm256_sqrt_pd _mm256_max_pd _mm256_min_pd
                 _mm256_and_pd _mm256_andnot_pd _mm256_or_pd;
             _mm256_add_pd _mm256_sub_pd _mm256_mul_pd _mm256_div_pd;

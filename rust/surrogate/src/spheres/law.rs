@@ -6,7 +6,7 @@ use super::number::Number;
 use super::state::{ELEMENTS, FABRIC, MIN_COMPRESSION, State};
 use super::tensor::{Rotation, Tensor, contraction, deviator, scaled, square, sum, turned};
 use crate::kernel::elementary;
-use crate::kernel::vector::Arithmetic;
+use crate::kernel::vector::{Arithmetic, part};
 use serde::{Deserialize, Serialize};
 
 /// The element with whose sliding goes the dilatancy. In all but the loosest packings it slides first, and its sliding is nearly the
@@ -198,9 +198,7 @@ impl Law {
         half: &Rotation<N::Values>,
     ) -> State<N> {
         let mut next = *state;
-        for ratio in &mut next.ratios {
-            *ratio = turned(ratio, half);
-        }
+        turn(&mut next.ratios, half);
         let [xx, yy, zz, xy, xz, yz] = strain.cell;
         let cell = [xx, yy, zz, xy.times(0.5), xz.times(0.5), yz.times(0.5)];
         let square = square(&cell);
@@ -217,16 +215,27 @@ impl Law {
             let thermal = strain.thermal / (strain.thermal * number + count);
             let second = number * share * share;
             let cell: Tensor<N> = six!(c => cell[c].by(share) - square[c].by(second));
-            let mut reached = self.part(&next, &usual, thermal, cell);
-            let usual_there = self.contacts.usual(&reached);
-            reached.coordination = self.contacts.after([&next, &reached], [&usual, &usual_there], &cell);
-            next = State::where_greater([count, number], &reached, &next);
-            usual = usual_there;
+            substep(self, &mut next, &mut usual, thermal, &cell, [count, number]);
         }
-        for ratio in &mut next.ratios {
-            *ratio = turned(ratio, half);
-        }
+        turn(&mut next.ratios, half);
         next
+    }
+
+    /// Strains the cells in which the first of `more` is larger than the second; `usual` is that of the state.
+    #[inline(always)]
+    fn substep<N: Number>(
+        &self,
+        next: &mut State<N>,
+        usual: &mut Usual<N>,
+        thermal: N::Values,
+        cell: &Tensor<N>,
+        more: [N::Values; 2],
+    ) {
+        let mut reached = self.part(next, usual, thermal, cell);
+        let usual_there = self.contacts.usual(&reached);
+        reached.coordination = self.contacts.after([next, &reached], [usual, &usual_there], cell);
+        *next = State::where_greater(more, &reached, next);
+        *usual = usual_there;
     }
 
     /// Loss of compression by a unit of sliding of the second element, see [`Law::dilatancy`], along a tensor of this length; `loaded` is
@@ -251,9 +260,9 @@ impl Law {
         state: &State<N>,
         usual: &Usual<N>,
         thermal: N::Values,
-        strain: Tensor<N>,
+        strain: &Tensor<N>,
     ) -> State<N> {
-        let [xx, yy, zz, xy, xz, yz] = strain;
+        let [xx, yy, zz, xy, xz, yz] = *strain;
         // Growth of the volume of the cell, and of the grains.
         let second = xx * yy + yy * zz + zz * xx - (xy * xy + xz * xz + yz * yz);
         let third = xx * (yy * zz - yz * yz) - xy * (xy * zz - yz * xz) + xz * (xy * yz - yy * xz);
@@ -267,7 +276,7 @@ impl Law {
         let after = tried.not_below(MIN_COMPRESSION);
         let over = after.inverse();
         let opening = after * before.inverse();
-        let distortion = deviator(strain);
+        let distortion = deviator(*strain);
         let loaded = Self::loaded(after);
         let stiffening = self.stiffening(x, unmobilised, loaded);
         let opened = opening.ln();
@@ -335,6 +344,23 @@ impl Law {
         // Grains that do not touch forget the deviator.
         let apart = State { compression: tried, ratios: [[zero; 6]; ELEMENTS], ..*state };
         State::where_greater([tried.value(), N::Values::zero()], &after, &apart)
+    }
+}
+
+part! {
+    /// [`Law::substep`].
+    by N::apart => fn substep<'a, N: Number>(
+        law: &'a Law, next: &'a mut State<N>, usual: &'a mut Usual<N>, thermal: N::Values, cell: &'a Tensor<N>, more: [N::Values; 2],
+    ) {
+        law.substep(next, usual, thermal, cell, more);
+    }
+}
+part! {
+    /// [`turned`] of each.
+    by N::apart => fn turn<'a, N: Number>(ratios: &'a mut [Tensor<N>; ELEMENTS], half: &'a Rotation<N::Values>) {
+        for ratio in ratios {
+            *ratio = turned(ratio, half);
+        }
     }
 }
 

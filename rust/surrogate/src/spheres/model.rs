@@ -8,7 +8,7 @@ use super::state::{ELEMENTS, PackingData, State};
 use super::tensor::{Tensor, contraction, mean, rotation};
 use crate::SurrogateError;
 use crate::document::{field, hash, json, schema};
-use crate::kernel::vector::{Arithmetic, Vector};
+use crate::kernel::vector::{Arithmetic, Vector, part};
 use crate::kernel::{LANES, Lanes, Task, dispatch_narrow};
 use crate::options::TrainingOptions;
 use crate::scaling::Range;
@@ -298,9 +298,9 @@ impl Task for Advance<'_> {
         for first in (0..self.cells).step_by(V::WIDTH) {
             let Wanted { strains, conduction } = self.wanted;
             match strains {
-                0 => self.model.some::<V, V>(self.block, first, conduction, self.answers),
-                1..=4 => self.model.some::<V, Dual<V, 4>>(self.block, first, conduction, self.answers),
-                _ => self.model.some::<V, Dual<V, 6>>(self.block, first, conduction, self.answers),
+                0 => some::<V, V>(self.model, self.block, first, conduction, self.answers),
+                1..=4 => some::<V, Dual<V, 4>>(self.model, self.block, first, conduction, self.answers),
+                _ => some::<V, Dual<V, 6>>(self.model, self.block, first, conduction, self.answers),
             }
         }
     }
@@ -457,7 +457,21 @@ impl SphereModel {
             let reached = state(&columns(&reached.values()));
             next = State::where_greater([moved, V::zero()], &reached, &from);
         }
-        let stress = law.stress(&next);
+        answer(self, block, first, conduction, (&before, &next, moved), answers);
+    }
+
+    /// Writes the answers for states before and after a strain, without derivatives. Where `moved` is 0 the state stays as it was.
+    #[inline(always)]
+    fn write<V: Vector>(
+        &self,
+        block: &Block,
+        first: usize,
+        conduction: bool,
+        (before, next, moved): (&[V; COLUMNS], &State<V>, V),
+        answers: &mut Answers,
+    ) {
+        let law = &self.file.law;
+        let stress = law.stress(next);
         let ratio = law.deviator(&next.ratio());
         let Ranges { jamming_fraction, pressure, stress_ratio } = self.file.ranges;
         let zero = V::zero();
@@ -470,7 +484,7 @@ impl SphereModel {
         let outside = of_density + of_pressure + of_ratio;
         let readout = &self.file.readout;
         // After no strain the state before, bit for bit.
-        for ((column, value), before) in answers.state.iter_mut().zip(&columns(&next)).zip(&before) {
+        for ((column, value), before) in answers.state.iter_mut().zip(&columns(next)).zip(before) {
             moved.where_greater(zero, *value, *before).write(&mut column[first..]);
         }
         for (column, value) in answers.stress.iter_mut().zip(&stress) {
@@ -482,14 +496,31 @@ impl SphereModel {
         if !conduction {
             return;
         }
-        for (column, value) in
-            answers.contact.iter_mut().zip(&readout.contact(&self.file.law.contacts, &next, &stress))
+        for (column, value) in answers.contact.iter_mut().zip(&readout.contact(&law.contacts, next, &stress))
         {
             value.write(&mut column[first..]);
         }
-        readout.gas(&next, V::read(&block.gas_number[first..])).write(&mut answers.gas[first..]);
-        for (column, value) in answers.gas_deviator.iter_mut().zip(&readout.gas_deviator(&next)) {
+        readout.gas(next, V::read(&block.gas_number[first..])).write(&mut answers.gas[first..]);
+        for (column, value) in answers.gas_deviator.iter_mut().zip(&readout.gas_deviator(next)) {
             value.write(&mut column[first..]);
         }
+    }
+}
+
+part! {
+    /// [`SphereModel::some`].
+    by V::apart => fn some<'a, V: Vector, N: Differentiable<V>>(
+        model: &'a SphereModel, block: &'a Block, first: usize, conduction: bool, answers: &'a mut Answers,
+    ) {
+        model.some::<V, N>(block, first, conduction, answers);
+    }
+}
+part! {
+    /// [`SphereModel::write`].
+    by V::apart => fn answer<'a, V: Vector>(
+        model: &'a SphereModel, block: &'a Block, first: usize, conduction: bool, states: (&'a [V; COLUMNS], &'a State<V>, V),
+        answers: &'a mut Answers,
+    ) {
+        model.write(block, first, conduction, states, answers);
     }
 }
