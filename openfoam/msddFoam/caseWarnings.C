@@ -111,6 +111,7 @@ Foam::caseWarnings::caseWarnings
     checkStrains();
     checkWeight();
     checkGravity();
+    checkTetrahedra();
     checkWallKeys();
     checkSides();
 }

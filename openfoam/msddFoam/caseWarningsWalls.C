@@ -57,6 +57,10 @@ static const usualOfWall usualOfWalls[] =
     {"slackRecovery", 0.5, "it was -0.5 to 0.5 in beds between smooth plates"}
 };
 
+//- Faces of a tetrahedron, and share of the cells from which on they count
+static const label facesOfTetrahedron = 4;
+static const scalar someCells = 0.05;
+
 //- Share of gravity along another axis from which on it is inclined
 static const scalar inclined = 1e-3;
 
@@ -146,6 +150,33 @@ void Foam::caseWarnings::checkGravity()
             " points away from a lid: see constant/g"
           : shown + ", usual: away from wall '" + lid + "', which presses on the"
             " bed and is taken as its top"
+        );
+    }
+}
+
+
+void Foam::caseWarnings::checkTetrahedra()
+{
+    if (mechanics_.type() == "none")
+    {
+        return;
+    }
+    label count = 0;
+    for (const cell& one : mesh_.cells())
+    {
+        count += one.size() == facesOfTetrahedron;
+    }
+    const scalar share =
+        scalar(returnReduce(count, sumOp<label>()))
+       /mesh_.globalData().nTotalCells();
+    if (share > someCells)
+    {
+        add
+        (
+            brief(100*share) + " % of the cells are tetrahedra, usual: hexahedra,"
+            " prisms or polyhedra (polyDualMesh). Where grains expand unevenly,"
+            " linear tetrahedra lock: the mean pressure was up to 2.4 times too"
+            " high, that of single cells more. Forces on whole walls are right"
         );
     }
 }

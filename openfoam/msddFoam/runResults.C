@@ -99,11 +99,20 @@ Foam::runResults::peak Foam::runResults::largest
 Foam::runResults::wall Foam::runResults::wallOf(const fvPatch& patch) const
 {
     const vectorField n(patch.nf());
-    const symmTensorField stress
+    // By the forces on its nodes where they are known: the stress of the cells
+    // next to it is less accurate
+    vectorField t
     (
-        grains_.stress().boundaryField()[patch.index()].patchInternalField()
+      - (
+            n
+          & grains_.stress().boundaryField()[patch.index()]
+           .patchInternalField()
+        )
     );
-    const vectorField t(-(n & stress));
+    if (const auto* force = T_.mesh().findObject<volVectorField>("wallForce"))
+    {
+        t = force->boundaryField()[patch.index()];
+    }
     const scalarField normal(t & n);
     const scalarField shear(mag(t - normal*n));
     const scalar area = max(gSum(patch.magSf()), VSMALL);

@@ -71,7 +71,9 @@ const keyTable stressLaw::equilibriumKeys
             "a step has failed if its residual is above this after"
             " `maxIterations`. An adaptive step is then repeated with half its"
             " size, the load of a fixed one is applied in 2, 4 or 8 parts; else"
-            " the run ends", "Pa", "`residual` to 2e7 S", "20 `residual`"
+            " the run ends", "Pa", "`residual` to 2e7 S",
+            "20 `residual`, at least the weight of the largest cell over its"
+            " area: that of grains which nothing supports"
         },
         {
             "walls", "boundary condition of each wall", "-", "a dictionary",
@@ -317,7 +319,8 @@ void Foam::granularMechanicsModels::equilibrium::setResidual()
     }
     maxResidual_ = keys.number
     (
-        dict_, "maxResidual", 20*tolerance_, scale, tolerance_
+        dict_, "maxResidual", max(20*tolerance_, unsupported_), scale,
+        tolerance_
     );
     walls_.setPressing(law_->pressure());
 }

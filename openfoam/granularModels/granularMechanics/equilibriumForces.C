@@ -128,6 +128,14 @@ void Foam::granularMechanicsModels::equilibrium::setStart()
         }
     }
 
+    for (label i = 0; i < weight_.size() && !law_->elastic(); ++i)
+    {
+        unsupported_ =
+            max(unsupported_, mag(weight_[i])/nodeSize_[i/nodes_.dim()]);
+    }
+    reduce(unsupported_, maxOp<scalar>());
+    setResidual();
+
     // Imbalance of the initial fields: without gravity it is the reference for
     // all later steps and so is never relaxed
     if (!law_->elastic())

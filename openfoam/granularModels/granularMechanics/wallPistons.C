@@ -61,11 +61,13 @@ void Foam::wallConstraints::findPistons()
         one.normal /= max(mag(one.normal), VSMALL);
         // The side of a body of revolution is round
         const label r = mesh_.radial();
-        bool flat = r < 0 || mag(one.normal[r]) < parallel, upright = true;
+        scalar slant = r < 0 ? 0 : mag(one.normal[r]);
+        bool upright = true;
         for (label i = 0; i < faces.size(); ++i)
         {
-            flat = flat && mag(normal(i) - one.normal) < parallel;
+            slant = max(slant, mag(normal(i) - one.normal));
         }
+        reduce(slant, maxOp<scalar>());
 
         // A process may have a node of a patch without having a face of it
         scalarField on(mesh_.size(), Zero);
@@ -113,12 +115,14 @@ void Foam::wallConstraints::findPistons()
             upright =
                 upright && !(meets && mag(other.normal & one.normal) > parallel);
         }
-        if (!returnReduce(flat, andOp<bool>()))
+        if (slant >= parallel)
         {
             FatalErrorInFunction
-                << "Patch " << name << " is a piston but not flat, allowed:"
-                << " pistons whose faces lie in a plane; see 'walls' of"
-                << " equilibriumCoeffs" << exit(FatalError);
+                << "Patch " << name << " is a piston but not flat: a face is at"
+                << " an angle of " << slant << " rad to the mean of all, allowed:"
+                << " up to " << parallel << ". Move its points into a plane, which"
+                << " snappyHexMesh does not do by itself, or take 'type pressure'"
+                << " in 'walls' of equilibriumCoeffs" << exit(FatalError);
         }
         if (!returnReduce(upright, andOp<bool>()))
         {

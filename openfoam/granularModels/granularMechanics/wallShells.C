@@ -15,6 +15,7 @@ License
 \*---------------------------------------------------------------------------*/
 
 #include "wallConditions.H"
+#include "volFields.H"
 #include "nodeDyads.H"
 #include "OStringStream.H"
 
@@ -31,6 +32,11 @@ static const scalar flat = 1e-3;
 //- above which there is a warning
 static const scalar unlike = 0.25;
 
+//- Thickness over radius up to which a wall is thin, part of its normals along
+//- its axis up to which it is round about it, and strain at the start up to
+//- which the temperature of its place is likely
+static const scalar thin = 0.2, slanted = 0.3, likely = 2e-3;
+
 } // End namespace Foam
 
 
@@ -39,9 +45,8 @@ static const scalar unlike = 0.25;
 void Foam::wallConstraints::readShell(const dictionary& dict, wall& w) const
 {
     w.radius = keys.number(dict, "radius");
-    w.stiffness =
-        keys.number(dict, "youngModulus")*keys.number(dict, "thickness")
-       /sqr(w.radius);
+    w.thickness = keys.number(dict, "thickness");
+    w.stiffness = keys.number(dict, "youngModulus")*w.thickness/sqr(w.radius);
     const scalar expansion = keys.number(dict, "thermalExpansion");
     w.growth = expansion*w.radius;
     if (expansion > 0)
@@ -103,22 +108,91 @@ void Foam::wallConditions::compareShells() const
     forAll(walls_, patchi)
     {
         const wall& w = walls_[patchi];
-        const scalar radius =
-            w.type == kind::shell ? mag(radiusOf(patchi)) : w.radius;
-        if (mag(radius - w.radius) <= unlike*w.radius)
+        if (w.type != kind::shell)
         {
             continue;
         }
-        OStringStream found;
-        found.precision(3);
-        found<< "its faces have a radius of " << radius << " m";
-        WarningInFunction
-            << "Patch " << mesh_.mesh().boundaryMesh()[patchi].name()
-            << " is a shell with radius " << w.radius << " m, but "
-            << (radius > 0 ? found.str() : string("is flat in the mesh")).c_str()
-            << ". A shell moves by the pressure times radius^2 over"
-            << " youngModulus and thickness, because it is round; see 'walls' of"
-            << " equilibriumCoeffs" << nl << endl;
+        const auto warn = [&](const std::string& what)
+        {
+            WarningInFunction
+                << "Patch " << mesh_.mesh().boundaryMesh()[patchi].name()
+                << " is a shell with " << what.c_str() << "; see 'walls' of"
+                << " equilibriumCoeffs" << nl << endl;
+        };
+        OStringStream text;
+        text.precision(3);
+        const scalar radius = mag(radiusOf(patchi));
+        if (mag(radius - w.radius) > unlike*w.radius)
+        {
+            text<< "radius " << w.radius << " m, but ";
+            if (radius > 0)
+            {
+                text<< "its faces have a radius of " << radius << " m";
+            }
+            else
+            {
+                text<< "is flat in the mesh";
+            }
+            text<< ". A shell moves by the pressure times radius^2 over"
+                << " youngModulus and thickness, because it is round";
+            warn(text.str());
+        }
+        if (w.thickness > thin*w.radius)
+        {
+            text.reset();
+            text<< "thickness " << w.thickness << " m and radius " << w.radius
+                << " m: a wall is thin, and moves as a shell does, up to a"
+                << " thickness of a fifth of its radius";
+            warn(text.str());
+        }
+        const elementMesh::wallFaces& faces = mesh_.wall(patchi);
+        const volScalarField* T =
+            mesh_.mesh().findObject<volScalarField>("T");
+        scalar along = 0, warm = 0, least = GREAT, most = -GREAT;
+        for (label i = 0; i < faces.size(); ++i)
+        {
+            along += mag(mesh_.vectorAt(normals_[patchi], i) & w.axis);
+            warm += T ? (*T)[faces.cells[i]] - w.temperature : 0;
+            for (label a = faces.start[i]; a < faces.start[i + 1]; ++a)
+            {
+                const scalar place =
+                    mesh_.vectorAt(mesh_.points(), faces.nodes[a]) & w.axis;
+                least = min(least, place);
+                most = max(most, place);
+            }
+        }
+        const scalar count = max(returnReduce(faces.size(), sumOp<label>()), 1);
+        reduce(along, sumOp<scalar>());
+        reduce(warm, sumOp<scalar>());
+        reduce(least, minOp<scalar>());
+        reduce(most, maxOp<scalar>());
+        if (along > slanted*count)
+        {
+            text.reset();
+            text<< "axis " << w.axis << ", but the normals of its faces have "
+                << along/count << " of their length along it in the mean. A round"
+                << " wall expands along the axis that it is round about";
+            warn(text.str());
+        }
+        if (mag(w.axis) > 0 && (w.fixedPlace < least || w.fixedPlace > most))
+        {
+            text.reset();
+            text<< "a fixedPoint at " << w.fixedPlace << " m along its axis, beyond"
+                << " its faces from " << least << " to " << most << " m. The nearer"
+                << " end is taken";
+            warn(text.str());
+        }
+        const scalar strain = w.growth/w.radius*warm/count;
+        if (mag(strain) > likely)
+        {
+            text.reset();
+            text<< "temperature " << w.temperature << " K, at which it has its"
+                << " place. At the start it is on average " << mag(warm/count)
+                << " K " << (warm > 0 ? "hotter" : "colder") << " and so "
+                << 100*mag(strain) << " % " << (warm > 0 ? "larger" : "smaller")
+                << " than its place";
+            warn(text.str());
+        }
     }
 }
 

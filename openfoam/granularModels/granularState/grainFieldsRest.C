@@ -70,6 +70,7 @@ static tmp<vectorField> shearWithin
         dimensionedScalar(dimless, Zero),
         fixedGradientFvPatchScalarField::typeName
     );
+    scalar rest = -sum(mesh.V()*divergence);
     forAll(potential.boundaryField(), patchi)
     {
         fvPatchScalarField& patch = potential.boundaryFieldRef()[patchi];
@@ -77,6 +78,7 @@ static tmp<vectorField> shearWithin
         {
             refCast<fixedGradientFvPatchScalarField>(patch).gradient() =
                 atWalls[patchi];
+            rest += sum(atWalls[patchi]*patch.patch().magSf());
         }
     }
     // As a first guess without correction where cells are slanted
@@ -98,7 +100,10 @@ static tmp<vectorField> shearWithin
             potential
         )
     );
-    equation.source() += mesh.V()*divergence;
+    // Where the section of a bed changes along gravity, the walls take more or
+    // less than the cells give: all cells take the rest equally
+    rest = returnReduce(rest, sumOp<scalar>())/gSum(mesh.V());
+    equation.source() += mesh.V()*(divergence + rest);
     equation.setReference(Pstream::master() ? 0 : -1, 0);
     dictionary controls;
     controls.add("solver", "PCG");
