@@ -70,7 +70,7 @@ const keyTable stressLaw::equilibriumKeys
             "maxResidual",
             "a step has failed if its residual is above this after"
             " `maxIterations`. An adaptive step is then repeated with half its"
-            " size, the load of a fixed one is applied in 2, 4 or 8 parts; else"
+            " size, the load of a fixed one is applied in 2, 4, ... 64 parts; else"
             " the run ends", "Pa", "`residual` to 2e7 S",
             "20 `residual`, at least the weight of the largest cell over its"
             " area: that of grains which nothing supports"

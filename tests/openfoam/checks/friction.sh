@@ -133,6 +133,25 @@ turned_silo() {
         check "a silo of tetrahedra, turned by 30 degrees: $name differs by $e <= 1e-5 of its largest" below "$e" 1e-5
     done
 }
+# The same silo, which narrows downwards: its walls take another share of the weight than its cells give
+hopper() {
+    rough_silo friction-hopper '0 0 0'
+    awk '/^\(/ && NF == 3 && match($0, /^\(.*\)$/) { gsub(/[()]/, ""); f = 0.7 + 0.3*$3
+        printf "(%.17g %.17g %.17g)\n", 0.5 + f*($1 - 0.5), 0.5 + f*($2 - 0.5), $3; next } { print }' constant/polyMesh/points > points.new
+    mv points.new constant/polyMesh/points
+    grains 'restStress { lateral 0.7; surface 5000; }'
+    controls 'endTime 0.1; deltaT 0.1; writeInterval 1;'
+    logged msddFoam
+    check "tetrahedra: a warning" grep -q '100 % of the cells are tetrahedra' log
+    field 0.1/initialStress > ../one
+    rm -rf 0.1
+    in_parts '3 1'
+    side_by_side 3
+    logged reconstructPar
+    e=$(paste -d ' ' ../one <(field 0.1/initialStress) | awk '{ for (i = 1; i <= NF/2; i++) { e = $i - $(i + NF/2); a = $i; if (e < 0) e = -e
+        if (a < 0) a = -a; if (!(e <= w)) w = e; if (a > m) m = a } } END { print (NR > 100 && m > 0 ? w/m : "nan") }')
+    check "a hopper: its stress at rest differs by $e <= 1e-10 between one process and three" below "$e" 1e-10
+}
 # A hollow cylinder with a rough wall outside, pressed along its axis, as a wedge and as a quarter in space: mean stress along the axis
 # and friction on the wall, of each layer
 pressed_cylinder() { # folder, mesh, patch that is pressed
@@ -213,6 +232,7 @@ plane_and_space
 janssen 1
 janssen 2
 turned_silo
+hopper
 wedge_and_cylinder
 again_and_in_parts_with_friction
 refused_friction
