@@ -58,7 +58,7 @@ const keyTable granularModels::spheres::keys
             "gas between the spheres. Properties are valid from 200 to 2000 K,"
             " of helium from 273 to 1800 K. Spheres that conduct less than the"
             " gas are refused; poor conductors have [their own"
-            " model](../theory/spheres-law.md#poor-conductors)", "-",
+            " model](../theory/radiation.md#poor-conductors)", "-",
             "air, nitrogen, helium, argon, vacuum", "vacuum"
         },
         {
@@ -77,7 +77,7 @@ const keyTable granularModels::spheres::keys
             "emissivity of the spheres, which are opaque, grey and diffuse, a"
             " number or a function of T, as `thermalConductivity`: above"
             " 0 they conduct by"
-            " [radiation](../theory/spheres-law.md#radiation), too. At 0 the run"
+            " [radiation](../theory/radiation.md#radiation), too. At 0 the run"
             " warns where radiation would add more than 2 % to the conductivity",
             "-", "0 to 1", "0"
         },
