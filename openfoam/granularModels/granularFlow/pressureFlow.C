@@ -35,11 +35,11 @@ namespace granularFlows
 
     //- Change of fluxes and psi, over the largest, at which they are solved,
     //- and the most iterations
-    static const scalar settled = 1e-12;
+    static const scalar settledChange = 1e-12;
 
     //- The same over the relative change of the temperatures by the last
     //- solution, if that is larger
-    static const scalar settledByT = 1e-4;
+    static const scalar changeByT = 1e-4;
 
     static const label mostNewton = 50;
 
@@ -325,7 +325,7 @@ void Foam::granularFlows::pressure::findFlux(const bool first)
     }
     label iterations = 0;
     scalar change = GREAT;
-    const scalar enough = max(settled, settledByT*lastShare());
+    const scalar enough = max(settledChange, changeByT*lastShare());
     mixing_.clear();
     while (change > enough && iterations < mostNewton)
     {

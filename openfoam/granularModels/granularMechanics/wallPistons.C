@@ -23,7 +23,7 @@ namespace Foam
 
 //- Sine of the angle up to which faces of a piston count as parallel, and other
 //- walls as normal to it
-static const scalar parallel = 1e-6;
+static const scalar maxSlant = 1e-6;
 
 } // End namespace Foam
 
@@ -102,7 +102,7 @@ void Foam::wallConstraints::findPistons()
                 {
                     along += basis_[dim*dim*i + dim*j + k]*one.normal[k];
                 }
-                upright = upright && mag(along) < parallel;
+                upright = upright && mag(along) < maxSlant;
             }
         }
         for (const piston& other : pistons_)
@@ -113,14 +113,14 @@ void Foam::wallConstraints::findPistons()
                 meets = meets || on[node] > 0;
             }
             upright =
-                upright && !(meets && mag(other.normal & one.normal) > parallel);
+                upright && !(meets && mag(other.normal & one.normal) > maxSlant);
         }
-        if (slant >= parallel)
+        if (slant >= maxSlant)
         {
             FatalErrorInFunction
                 << "Patch " << name << " is a piston but not flat: a face is at"
                 << " an angle of " << slant << " rad to the mean of all, allowed:"
-                << " up to " << parallel << ". Move its points into a plane, which"
+                << " up to " << maxSlant << ". Move its points into a plane, which"
                 << " snappyHexMesh does not do by itself, or take 'type pressure'"
                 << " in 'walls' of equilibriumCoeffs" << exit(FatalError);
         }

@@ -26,7 +26,7 @@ namespace Foam
 
 //- Share of the tolerance below which a remainder counts as zero, so that
 //- rounding errors do not create boxes
-static const scalar nothing = 0.01;
+static const scalar zeroShare = 0.01;
 
 } // End namespace Foam
 
@@ -98,7 +98,7 @@ Foam::granularModels::rveHistory::blend
 Foam::granularModels::rveHistory::at(const place& where)
 {
     const scalar part = std::abs(where.remainder)/tolerance_;
-    const scalar weight = std::max(scalar(0), (part - nothing)/(1 - nothing));
+    const scalar weight = std::max(scalar(0), (part - zeroShare)/(1 - nothing));
 
     // The child is made before references are taken: making it may move all
     // nodes in memory

@@ -2,7 +2,7 @@
 //! that replace others, so only keys, values and nested dictionaries are left to be read.
 
 use crate::{CaseError, openfoam};
-use regex::Regex;
+use regex_lite::Regex;
 use std::path::{Path, PathBuf};
 
 /// One word, string or bracket.

@@ -26,14 +26,16 @@ header_of_versions() {
 }
 
 # Newer versions need C++17. A function of ours that hides one of OpenFOAM is often one that a newer version has changed;
-# the build does not see it, since OpenFOAM's headers are system headers there.
+# the build does not see it, since OpenFOAM's headers are system headers there. With --full each file is parsed alone, so that
+# none relies on another of its unit.
 newer_standard() {
-    local part said
+    local part said files=(grep '\.C$' Make/files)
+    [ $full = no ] || files=(find . -name '*.C' -not -name '*Unit.C' -not -path './lnInclude/*')
     for part in granularModels functionObjects granularThermo msddFoam; do
         said=$(
             . "$checkout/scripts/foam-env" build
             cd "$checkout/openfoam/$part"
-            grep '\.C$' Make/files | xargs -P "$(nproc)" -n 1 g++ -fsyntax-only -std=c++17 -Wall -Wextra -Wno-unused-parameter \
+            "${files[@]}" | xargs -P "$(nproc)" -n 1 g++ -fsyntax-only -std=c++17 -Wall -Wextra -Wno-unused-parameter \
                 -Woverloaded-virtual -DOPENFOAM="$msdd_api" -DWM_DP -DWM_LABEL_SIZE="$WM_LABEL_SIZE" -DNoRepository \
                 $(pkg-config --cflags PETSc mpi-cxx | sed 's/-I/-isystem/g') -IlnInclude -I. \
                 $(sed '/LIBS/,$d' Make/options | grep -oE -- '-I[^ ]+' | sed "s@\$(LIB_SRC)@$WM_PROJECT_DIR/src@") \

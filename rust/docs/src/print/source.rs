@@ -1,7 +1,7 @@
 //! Rust sources as text: bodies of items, constants, and where they are.
 
 use crate::error::DocsError;
-use regex::Regex;
+use regex_lite::Regex;
 use std::cell::OnceCell;
 use std::path::{Path, PathBuf};
 
@@ -11,7 +11,7 @@ pub fn regex(pattern: &str) -> Regex {
 
 /// Groups of every match of a pattern; those that took no part are empty.
 pub fn all(pattern: &str, text: &str) -> Vec<Vec<String>> {
-    let groups = |found: regex::Captures| {
+    let groups = |found: regex_lite::Captures| {
         found.iter().map(|group| group.map_or_else(String::new, |m| m.as_str().to_string())).collect()
     };
     regex(pattern).captures_iter(text).map(groups).collect()

@@ -6,7 +6,7 @@
 //! on alone is no use. Methods that are found by their type alone are not seen.
 
 use super::print::sources;
-use regex::Regex;
+use regex_lite::Regex;
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Of all crates by path, `case::spheres::wall`: texts of modules, or what a name stands for.

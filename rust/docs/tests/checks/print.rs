@@ -4,7 +4,7 @@ use super::found;
 use super::repository::root;
 use msdd_docs::pages::Page;
 use msdd_docs::print::{self, expanded, header};
-use regex::Regex;
+use regex_lite::Regex;
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;

@@ -2,7 +2,7 @@
 
 use super::repository::root;
 use msdd_docs::pages::Page;
-use regex::Regex;
+use regex_lite::Regex;
 use std::fs;
 use std::path::Path;
 
