@@ -98,7 +98,7 @@ Foam::granularModels::rveHistory::blend
 Foam::granularModels::rveHistory::at(const place& where)
 {
     const scalar part = std::abs(where.remainder)/tolerance_;
-    const scalar weight = std::max(scalar(0), (part - zeroShare)/(1 - nothing));
+    const scalar weight = std::max(scalar(0), (part - zeroShare)/(1 - zeroShare));
 
     // The child is made before references are taken: making it may move all
     // nodes in memory
