@@ -1,6 +1,5 @@
 //! Makes the files of a new case. The folder is complete and includes no files of other cases, so it can stand anywhere.
 
-use crate::CaseError;
 use crate::disc_model;
 use crate::fields::{FieldKind, head, uniform};
 use crate::numbers::{plain, rounded};
@@ -8,6 +7,7 @@ use crate::packing::{Packing, Spread};
 use crate::path;
 use crate::scene::DiscCase;
 use crate::values::{compression_name, fill, stop_when_steady, values};
+use crate::{CaseError, refused};
 use std::fs;
 use std::os::unix::fs::PermissionsExt;
 use std::path::{Path, PathBuf};
@@ -43,13 +43,7 @@ impl File {
 /// # Errors
 /// [`CaseError::Parameter`].
 pub fn check_folder(folder: &Path, force: bool) -> Result<PathBuf, CaseError> {
-    let refuse = |value: &Path, allowed: &str| {
-        Err(CaseError::Parameter {
-            key: "folder".to_string(),
-            value: value.display().to_string(),
-            allowed: allowed.to_string(),
-        })
-    };
+    let refuse = |value: &Path, allowed: &str| Err(refused("folder", value.display().to_string(), allowed));
     let Ok(whole) = std::path::absolute(folder) else {
         return refuse(folder, "a folder, or a name that is not there yet");
     };

@@ -76,3 +76,8 @@ pub enum CaseError {
     #[error(transparent)]
     File(#[from] msdd_files::FileError),
 }
+
+/// The error of a parameter whose value is not allowed.
+fn refused(key: impl Into<String>, value: impl Into<String>, allowed: impl Into<String>) -> CaseError {
+    CaseError::Parameter { key: key.into(), value: value.into(), allowed: allowed.into() }
+}

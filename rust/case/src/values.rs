@@ -21,6 +21,10 @@ const STEPS: f64 = 100.0;
 const DISCS_STEP: f64 = 0.8;
 const DISCS_COST: f64 = 4e-7;
 
+/// Last entries of the condition of a wall with a coefficient or a flux and without a resistance.
+const EXTERNAL: &str =
+    "\n        kappaMethod     lookup;\n        kappa           K;\n        value           $internalField;";
+
 pub(crate) type Values = Vec<(&'static str, String)>;
 
 /// The values that replace `@key@` in the templates.
@@ -221,8 +225,7 @@ fn probes(scene: &DiscCase, depth: f64) -> String {
 /// Patches of `0/T`. `resist`: walls that heat passes contain the resistance between wall and grains.
 pub(crate) fn walls<'a>(walls: impl Iterator<Item = (&'a str, &'a WallOverTime)>, resist: bool) -> String {
     let block = |(name, wall): (&str, &WallOverTime)| {
-        let condition = if resist && wall.conducts() { resisting(wall) } else { condition(wall) };
-        format!("    {name}\n    {{\n        {condition}\n    }}\n")
+        format!("    {name}\n    {{\n        {}\n    }}\n", condition(wall, resist))
     };
     walls.map(block).collect()
 }
@@ -234,51 +237,35 @@ fn rows_of(rows: &[[f64; 2]]) -> String {
     format!("table ({list} )")
 }
 
-/// The condition of a wall that heat passes, with the resistance between wall and grains.
-fn resisting(wall: &WallOverTime) -> String {
-    let (mode, entries) = match wall {
-        WallOverTime::Coefficient { coefficient, outside } => (
-            "coefficient",
-            format!("h               {};\n        Ta              {};", plain(*coefficient), plain(*outside)),
-        ),
-        WallOverTime::Flux(flux) => ("flux", format!("q               {};", plain(*flux))),
-        WallOverTime::Table(rows) => ("temperature", format!("temperature     {};", rows_of(rows))),
-        WallOverTime::Steady(WallHeat::Temperature(value)) => {
-            ("temperature", format!("temperature     {};", plain(*value)))
-        }
-        WallOverTime::Steady(_) => return condition(wall),
+/// The condition of a wall; `resist`: with the resistance between wall and grains, if heat passes.
+fn condition(wall: &WallOverTime, resist: bool) -> String {
+    let with_mode = |mode: &str, entries: String| {
+        let [kind, end] = match resist {
+            true => ["granularWall", ""],
+            false => ["externalWallHeatFluxTemperature", EXTERNAL],
+        };
+        format!("type            {kind};\n        mode            {mode};\n        {entries}{end}")
     };
-    format!("type            granularWall;\n        mode            {mode};\n        {entries}")
-}
-
-fn condition(wall: &WallOverTime) -> String {
-    let external = |mode: &str, entries: String| {
-        format!(
-            "type            externalWallHeatFluxTemperature;\n        mode            {mode};\n        {entries}\n        \
-             kappaMethod     lookup;\n        kappa           K;\n        value           $internalField;"
-        )
-    };
+    let temperature = |value: String| with_mode("temperature", format!("temperature     {value};"));
+    let [uniform, constant] = if resist { [""; 2] } else { ["uniform ", "constant "] };
     match wall {
-        WallOverTime::Coefficient { coefficient, outside } => external(
-            "coefficient",
-            format!(
-                "h               uniform {};\n        Ta              constant {};",
-                plain(*coefficient),
-                plain(*outside)
-            ),
+        WallOverTime::Coefficient { coefficient, outside } => {
+            let (h, outside) = (plain(*coefficient), plain(*outside));
+            let h = format!("h               {uniform}{h};\n        Ta              {constant}{outside};");
+            with_mode("coefficient", h)
+        }
+        WallOverTime::Flux(flux) => with_mode("flux", format!("q               {uniform}{};", plain(*flux))),
+        WallOverTime::Table(rows) if resist => temperature(rows_of(rows)),
+        WallOverTime::Table(rows) => format!(
+            "type            uniformFixedValue;\n        uniformValue    {};\n        value           uniform {};",
+            rows_of(rows),
+            plain(rows[0][1])
         ),
-        WallOverTime::Flux(flux) => external("flux", format!("q               uniform {};", plain(*flux))),
+        WallOverTime::Steady(WallHeat::Temperature(value)) if resist => temperature(plain(*value)),
         WallOverTime::Steady(WallHeat::Temperature(value)) => {
             format!("type    fixedValue;\n        value   uniform {};", plain(*value))
         }
         WallOverTime::Steady(_) => "type    zeroGradient;".to_string(),
-        WallOverTime::Table(rows) => {
-            format!(
-                "type            uniformFixedValue;\n        uniformValue    {};\n        value           uniform {};",
-                rows_of(rows),
-                plain(rows[0][1])
-            )
-        }
     }
 }
 

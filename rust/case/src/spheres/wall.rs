@@ -1,8 +1,8 @@
 //! The walls of a bed of spheres: the friction of a flat wall, and its material, from which the resistance between wall and spheres
 //! follows.
 
-use crate::CaseError;
-use crate::numbers::{plain, rounded};
+use crate::numbers::{plain, short};
+use crate::{CaseError, refused};
 
 /// The material of a wall.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -59,11 +59,10 @@ impl WallMaterial {
         let name = name.unwrap_or(MATERIALS[0].name);
         let known = MATERIALS.into_iter().find(|material| material.name == name);
         match known {
-            None if name != "none" => Err(CaseError::Parameter {
-                key: "wall material".to_string(),
-                value: name.to_string(),
-                allowed: MATERIALS.map(|material| material.name).join(", ") + ", none",
-            }),
+            None if name != "none" => {
+                let allowed = MATERIALS.map(|material| material.name).join(", ") + ", none";
+                Err(refused("wall material", name, allowed))
+            }
             known => Ok(known),
         }
     }
@@ -109,10 +108,6 @@ pub fn of_bed(friction: f64) -> f64 {
 /// What a coefficient of friction of a sphere means for a bed, as text.
 pub fn sentence(friction: f64) -> String {
     format!("a friction of {} of a sphere acts on the bed as {}", plain(friction), short(of_bed(friction)))
-}
-
-fn short(value: f64) -> String {
-    plain(rounded(value, 3))
 }
 
 /// The coefficient of friction of spheres and a wall along which a bed slips with this tangential over normal stress: the inverse of

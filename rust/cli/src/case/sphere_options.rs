@@ -1,7 +1,7 @@
 //! The user's choices for a new case of a bed of spheres: options in addition to those of all beds, and questions.
 
 use super::common_options::{CommonOptions, HOTTER, MechanicsName, WALL_HELP, coldest};
-use super::prompts::{Prompter, number, temperature};
+use super::prompts::{Prompter, number, temperature, wrong};
 use crate::error::CliError;
 use clap::{Args, ValueEnum};
 use msdd_beds::case::{BedCase, End, Flow, GasKeys, Lid, RecordKeys, Shell, SolverKeys, Time, Vessel};
@@ -483,10 +483,6 @@ fn ask_cells(
     };
     let read = prompter.within(read, |cells: &Vec<usize>| ranges::cells(cells));
     prompter.value(given, help, "Cells along each direction", &proposal, read)
-}
-
-fn wrong(key: &str, value: &str, allowed: &str) -> CliError {
-    CliError::Message(format!("{key} = {value}, allowed: {allowed}"))
 }
 
 /// Summary of the case that will be made, for the terminal.

@@ -90,16 +90,10 @@ pub struct ExpandArguments {
     /// Default: 0.
     #[arg(long, value_delimiter = ',', allow_negative_numbers = true)]
     pub yz: Vec<f64>,
-    /// Of discs: when the walls move, displace all grains with the mean strain of the box; else only the walls push them.
-    #[arg(long)]
-    pub affine: bool,
     /// Of discs: rate of the strain that changes most [1/s]. Allowed: 1e-6 to 100 for grains like the paper's. Default: 0.1
     /// when contacts close, 0.02 when they open.
     #[arg(long)]
     pub rate: Option<f64>,
-    /// Of discs: contact stiffness of the walls over E r. Allowed: 1e-30 to 1e30. Default: from the state.
-    #[arg(long)]
-    pub wall_stiffness: Option<f64>,
     /// Of discs: how equilibrium is found, by the damped motion of the grains, or by the minimiser FIRE, which is several
     /// times as fast.
     #[arg(long, value_enum, default_value_t = RelaxationName::Damped)]

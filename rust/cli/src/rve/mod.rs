@@ -122,8 +122,7 @@ fn pack_one(arguments: &PackArguments) -> Result<(), CliError> {
     let packed = pack_watched(&spec, &Preparation::default(), &Material::default())
         .map_err(|stopped| failed(&arguments.out, stopped.error, stopped.last_good.as_deref()))?;
     write_state(&arguments.out, &packed.simulation)?;
-    let mut series = Series::new(arguments.vtk.as_deref());
-    series.add(0.0, &packed.simulation)?;
+    write_vtk(arguments.vtk.as_deref(), &[0.0], &packed.simulation)?;
     report("packed", &packed.settled, &msdd_rve::homogenise(&packed.simulation, RegionKind::default()));
     Ok(())
 }
@@ -138,24 +137,18 @@ fn expand_one(arguments: &ExpandArguments) -> Result<(), CliError> {
     if ![&arguments.zz, &arguments.xz, &arguments.yz].iter().all(|list| list.is_empty()) {
         return Err(CliError::Message("--zz, --xz, --yz: are for boxes of spheres".to_string()));
     }
-    simulation.affine = arguments.affine;
-    if let Some(factor) = arguments.wall_stiffness {
-        simulation.material.wall_stiffness_factor = factor;
-        simulation.material.check().map_err(|error| CliError::Message(error.to_string()))?;
-    }
     let path = path(arguments)?;
     let mut protocol = Protocol { relaxation: arguments.relaxation.into(), ..Protocol::usual(&simulation) };
     if let Some(rate) = arguments.rate {
         (protocol.expansion_rate, protocol.contraction_rate) = (rate, rate);
     }
-    let mut series = Series::new(arguments.vtk.as_deref());
-    let mut written = series.add(0.0, &simulation);
-    let mut written_stops = 0;
+    let mut times = vec![0.0];
+    let mut written = write_vtk(arguments.vtk.as_deref(), &times, &simulation);
     let ramp = follow(&mut simulation, &path, protocol, |stop, simulation| {
+        times.push(times.len() as f64);
         if written.is_ok() {
-            written = series.add((written_stops + 1) as f64, simulation);
+            written = write_vtk(arguments.vtk.as_deref(), &times, simulation);
         }
-        written_stops += 1;
         let Strains { thermal, xx, yy, xy } = stop.strains;
         let walls = if xx == 0.0 && yy == 0.0 { String::new() } else { format!(", walls {xx:+} {yy:+}") };
         let shear = if xy == 0.0 { String::new() } else { format!(", shear {xy:+}") };
@@ -232,30 +225,14 @@ fn as_json(a: &Averages, unbalanced: f64) -> serde_json::Value {
     })
 }
 
-/// Writes a ParaView time series to a folder; without a folder, it writes nothing.
-struct Series<'a> {
-    folder: Option<&'a Path>,
-    particles: Vec<(f64, String)>,
-    contacts: Vec<(f64, String)>,
-}
-
-impl<'a> Series<'a> {
-    fn new(folder: Option<&'a Path>) -> Self {
-        Self { folder, particles: Vec::new(), contacts: Vec::new() }
+/// Writes the state at the last of `times` \[s\], and the ParaView series file that lists all of them; without a folder, it writes nothing.
+pub fn write_vtk(folder: Option<&Path>, times: &[f64], simulation: &Simulation) -> Result<(), CliError> {
+    let Some(folder) = folder else { return Ok(()) };
+    for (name, text) in [("particles", vtk::particles(simulation)), ("contacts", vtk::contacts(simulation))] {
+        let file = |k: usize| format!("{name}_{k:04}.vtp");
+        write(&folder.join(file(times.len() - 1)), text.as_bytes())?;
+        let list: Vec<(f64, String)> = times.iter().enumerate().map(|(k, &time)| (time, file(k))).collect();
+        write(&folder.join(format!("{name}.pvd")), vtk::series(&list).as_bytes())?;
     }
-
-    fn add(&mut self, time: f64, simulation: &Simulation) -> Result<(), CliError> {
-        let Some(folder) = self.folder else { return Ok(()) };
-        let number = self.particles.len();
-        for (name, text, list) in [
-            ("particles", vtk::particles(simulation), &mut self.particles),
-            ("contacts", vtk::contacts(simulation), &mut self.contacts),
-        ] {
-            let file = format!("{name}_{number:04}.vtp");
-            write(&folder.join(&file), text.as_bytes())?;
-            list.push((time, file));
-            write(&folder.join(format!("{name}.pvd")), vtk::series(list).as_bytes())?;
-        }
-        Ok(())
-    }
+    Ok(())
 }

@@ -60,9 +60,7 @@ pub fn pack(arguments: &PackArguments, count: usize) -> Result<(), CliError> {
 pub fn expand(arguments: &ExpandArguments, mut simulation: Simulation) -> Result<(), CliError> {
     check_target(&arguments.out)?;
     let only_discs = [
-        ("affine", arguments.affine),
         ("rate", arguments.rate.is_some()),
-        ("wall-stiffness", arguments.wall_stiffness.is_some()),
         ("relaxation fire", matches!(arguments.relaxation, RelaxationName::Fire)),
     ];
     if let Some((name, _)) = only_discs.into_iter().find(|(_, given)| *given) {

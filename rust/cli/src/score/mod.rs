@@ -3,6 +3,7 @@
 mod plot;
 
 use crate::error::CliError;
+use crate::output::write_json;
 use crate::spheres;
 use clap::Args;
 use msdd_case::numbers::{plain, rounded};
@@ -65,9 +66,7 @@ pub fn run(arguments: &Arguments) -> Result<(), CliError> {
         print_side_by_side(&scores);
     }
     if let Some(path) = &arguments.json {
-        let text = serde_json::to_string_pretty(&scores)
-            .map_err(|error| CliError::Message(format!("cannot write the scores: {error}")))?;
-        write(path, (text + "\n").as_bytes())?;
+        write_json(path, &scores)?;
     }
     Ok(())
 }

@@ -9,6 +9,7 @@ mod read;
 mod table;
 
 use crate::error::CliError;
+use crate::output::write_json;
 use clap::Args;
 use discs::{Comparison, Discs, Named};
 use msdd_dem_reference::packings::CASES;
@@ -50,14 +51,13 @@ struct Summary<'a> {
 /// Reads, checks and reports the cases. All of them are read before anything is written.
 pub fn run(arguments: &Arguments) -> Result<(), CliError> {
     let (named, model) = read_all(&arguments.cases, arguments.moving.as_deref(), &arguments.reference)?;
-    let json = serde_json::to_string_pretty(&Summary {
+    let summary = Summary {
         cases: named.iter().map(|case| (case.folder, &case.stay)).collect(),
         moving: named.iter().filter_map(|case| Some((case.folder, case.moving.as_ref()?))).collect(),
         comparison: named.iter().map(|case| (case.folder, case.comparison())).collect(),
         model: &model,
-    })
-    .map_err(|error| CliError::Message(error.to_string()))?;
-    write(&arguments.out, json.as_bytes())?;
+    };
+    write_json(&arguments.out, &summary)?;
     write(&arguments.plot, plot::temperature(&named)?.as_bytes())?;
     out!("{}", table::text(&named));
     outln!("model: {}, SHA-256 {}", model.source, model.hash);
