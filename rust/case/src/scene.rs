@@ -56,12 +56,13 @@ pub struct DiscCase {
 /// wider in large boxes.
 pub fn proposed_cells(size: [f64; 2], mean_radius: f64) -> [usize; 2] {
     let cell = (CELL_RADII * mean_radius).max(size[0].max(size[1]) / PROPOSED_CELLS);
-    cells_of(size, cell)
+    let cells = cells_of(&size, cell);
+    [cells[0], cells[1]]
 }
 
 /// Numbers of cells along each direction if the cells have about this side \[m\].
-pub fn cells_of<const N: usize>(size: [f64; N], cell: f64) -> [usize; N] {
-    size.map(|length| (length / cell).round().max(1.0) as usize)
+pub fn cells_of(size: &[f64], cell: f64) -> Vec<usize> {
+    size.iter().map(|length| (length / cell).round().max(1.0) as usize).collect()
 }
 
 /// Three points on the horizontal middle line of the box \[m\]: near the left wall, in the middle, near the right wall.
@@ -170,8 +171,12 @@ impl<T: Copy + std::fmt::Display> Numbers<T> {
     /// # Errors
     /// [`CaseError::Parameter`] for another count, with what is `allowed`.
     pub fn exactly<const N: usize>(&self, key: &str, allowed: &str) -> Result<[T; N], CaseError> {
-        let text = || self.0.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ");
-        <[T; N]>::try_from(self.0.as_slice()).map_err(|_| refused(key, text(), allowed))
+        <[T; N]>::try_from(self.0.as_slice()).map_err(|_| refused(key, self.text(), allowed))
+    }
+
+    /// The numbers for messages.
+    pub fn text(&self) -> String {
+        self.0.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ")
     }
 }
 

@@ -16,10 +16,12 @@ use msdd_beds::property::VALUES;
 use msdd_beds::schedule::Schedule;
 use msdd_dem::WallHeat;
 use msdd_rve::message::number;
+use serde::Deserialize;
 use std::f64::consts::PI;
 
 /// What the top of the bed does.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Lid {
     /// It keeps the pressure of the start, and moves.
     #[default]

@@ -5,9 +5,10 @@ mod summary;
 
 use crate::confirm;
 use crate::error::CliError;
+use crate::named::parser;
 use crate::progress::Progress;
 use crate::rve::{read_state, write_state, write_vtk};
-use clap::{Args, Subcommand, ValueEnum};
+use clap::{Args, Subcommand};
 use msdd_case::Case;
 use msdd_case::mesh::Mesh;
 use msdd_case::numbers::rounded;
@@ -19,6 +20,7 @@ use msdd_dem_reference::run::Watch;
 use msdd_dem_reference::start::InitialMeans;
 use msdd_dem_reference::{ReferenceError, RunSpec, Statistics, fields, results::Results, run as run_case};
 use msdd_files::{check_target, write};
+use msdd_rve::Compression;
 use msdd_rve::message::number;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -44,11 +46,7 @@ pub enum Command {
 }
 
 /// How a box is closed.
-#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum Closing {
-    Horizontal,
-    Isotropic,
-}
+const CLOSINGS: [&str; 2] = ["horizontal", "isotropic"];
 
 /// Which packed model.
 #[derive(Args)]
@@ -73,8 +71,8 @@ pub struct ModelArguments {
     #[arg(long, value_name = "RATIO", requires = "state")]
     porosity: Option<f64>,
     /// How the box is closed: along x alone, as in the cases of the paper, or along x and y. Needs --state.
-    #[arg(long, value_enum, default_value_t = Closing::Horizontal, requires = "state")]
-    compression: Closing,
+    #[arg(long, value_parser = parser::<Compression>(&CLOSINGS), default_value = CLOSINGS[0], requires = "state")]
+    compression: Compression,
     /// Number of threads. Default: 2, or 1 on a machine with one core.
     #[arg(long, default_value_t = threads(), value_parser = crate::threads::parser())]
     threads: u32,
@@ -158,7 +156,7 @@ pub fn run(command: &Command) -> Result<(), CliError> {
 
 impl ModelArguments {
     fn filling(&self, case: &Case) -> Result<Filling, CliError> {
-        let usual = Filling { isotropic: self.compression == Closing::Isotropic, ..Filling::of(case) };
+        let usual = Filling { isotropic: self.compression == Compression::Isotropic, ..Filling::of(case) };
         let Some(porosity) = self.porosity else { return Ok(usual) };
         let porosity = sum_porosity(porosity).map_err(ReferenceError::from)?;
         Ok(Filling { porosity, ..usual })

@@ -3,19 +3,15 @@
 mod arguments;
 mod spheres;
 
-use crate::output::print_json;
-use arguments::{
-    BoundaryName, CompressionName, CutName, ExpandArguments, HomogeniseArguments, PackArguments, RegionName,
-    RelaxationName, strains,
-};
-
 use crate::error::CliError;
+use crate::named;
+use crate::output::print_json;
+use arguments::{ExpandArguments, HomogeniseArguments, PackArguments, strains};
 use clap::Subcommand;
 use msdd_files::{check_target, read_text, write};
 use msdd_rve::{
-    Averages, Boundary, Compression, Cut, Material, PackingSpec, Preparation, Protocol, RegionKind,
-    Relaxation, RveError, Settled, Simulation, Strains, follow, homogenise_in, last_good, pack_watched,
-    region, state, unbalanced_force, vtk,
+    Averages, Material, PackingSpec, Preparation, Protocol, RegionKind, RveError, Settled, Simulation,
+    Strains, follow, homogenise_in, last_good, pack_watched, region, state, unbalanced_force, vtk,
 };
 use serde_json::json;
 use std::path::Path;
@@ -31,15 +27,6 @@ pub enum Command {
     Homogenise(HomogeniseArguments),
     /// Draw the grains of a state and the forces between them as SVG, alone or next to a field of the solver.
     Draw(crate::draw::Arguments),
-}
-
-impl From<RelaxationName> for Relaxation {
-    fn from(name: RelaxationName) -> Self {
-        match name {
-            RelaxationName::Damped => Self::Damped,
-            RelaxationName::Fire => Self::Fire,
-        }
-    }
 }
 
 pub fn run(command: &Command) -> Result<(), CliError> {
@@ -101,23 +88,14 @@ fn pack_one(arguments: &PackArguments) -> Result<(), CliError> {
         discs: arguments.discs,
         seed: arguments.seed,
         porosity,
-        compression: match arguments.compression {
-            CompressionName::Isotropic => Compression::Isotropic,
-            CompressionName::Horizontal => Compression::Horizontal,
-            CompressionName::Intermediate => Compression::Intermediate,
-            CompressionName::Sheared => Compression::Sheared,
-            CompressionName::Uniaxial => {
-                let allowed = "isotropic, horizontal, intermediate, sheared; uniaxial is for spheres";
-                return Err(CliError::Message(format!("--compression: uniaxial, allowed: {allowed}")));
-            }
-        },
+        compression: named::read(&arguments.compression).map_err(|_| {
+            let allowed = "isotropic, horizontal, intermediate, sheared; uniaxial is for spheres";
+            CliError::Message(format!("--compression: uniaxial, allowed: {allowed}"))
+        })?,
         radius_min: arguments.radius_min,
         radius_max: arguments.radius_max,
-        relaxation: arguments.relaxation.into(),
-        boundary: match arguments.boundary {
-            BoundaryName::Walls => Boundary::Walls,
-            BoundaryName::Periodic => Boundary::Periodic,
-        },
+        relaxation: arguments.relaxation,
+        boundary: arguments.boundary,
     };
     let packed = pack_watched(&spec, &Preparation::default(), &Material::default())
         .map_err(|stopped| failed(&arguments.out, stopped.error, stopped.last_good.as_deref()))?;
@@ -138,7 +116,7 @@ fn expand_one(arguments: &ExpandArguments) -> Result<(), CliError> {
         return Err(CliError::Message("--zz, --xz, --yz: are for boxes of spheres".to_string()));
     }
     let path = path(arguments)?;
-    let mut protocol = Protocol { relaxation: arguments.relaxation.into(), ..Protocol::usual(&simulation) };
+    let mut protocol = Protocol { relaxation: arguments.relaxation, ..Protocol::usual(&simulation) };
     if let Some(rate) = arguments.rate {
         (protocol.expansion_rate, protocol.contraction_rate) = (rate, rate);
     }
@@ -189,16 +167,8 @@ fn homogenise_one(arguments: &HomogeniseArguments) -> Result<(), CliError> {
         Assembly::Discs(simulation) => simulation,
         Assembly::Spheres(simulation) => return spheres::homogenise(&simulation),
     };
-    let kind = match arguments.region {
-        RegionName::Hull => RegionKind::Hull,
-        RegionName::Inset => RegionKind::Inset,
-        RegionName::Cell => RegionKind::Cell,
-    };
-    let cut = match arguments.cut {
-        CutName::Clip => Cut::Clip,
-        CutName::Whole => Cut::Whole,
-    };
-    let averages = homogenise_in(&simulation, &region::region(&simulation, kind), cut);
+    let region = region::region(&simulation, arguments.region);
+    let averages = homogenise_in(&simulation, &region, arguments.cut);
     let json = as_json(&averages, unbalanced_force(&simulation));
     print_json(&json)
 }
