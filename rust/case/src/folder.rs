@@ -66,18 +66,19 @@ pub fn files(scene: &DiscCase, packing: &Packing, name: &str, checkout: &Path) -
     let values = values(scene, packing, name, checkout);
     let filled = |template: &str| fill(template, &values);
     let foam = |path, class: &str, template: &str| File::foam(path, class, &filled(template));
-    let mut files = vec![
-        File { path: "Allrun", text: filled(template!("Allrun")), program: true },
-        File { path: "Allclean", text: filled(template!("Allclean")), program: true },
+    let tolerance = match scene.tolerance {
+        Some(value) => format!("temperatureTolerance    {};", plain(value)),
+        None => "// temperatureTolerance    0.05;".to_string(),
+    };
+    let mut files = with_keys(name, checkout, tolerance, scene.steady);
+    files.extend([
         File { path: "README.md", text: filled(template!("README.md")), program: false },
         foam("constant/granularProperties", "dictionary", template!("granularProperties")),
         foam("system/controlDict", "dictionary", template!("controlDict")),
         foam("system/blockMeshDict", "dictionary", template!("blockMeshDict")),
-        foam("system/fvSchemes", "dictionary", template!("fvSchemes")),
-        foam("system/fvSolution", "dictionary", template!("fvSolution")),
         foam("system/decomposeParDict", "dictionary", template!("decomposeParDict")),
         foam("0/T", "volScalarField", template!("T")),
-    ];
+    ]);
     if scene.heat_source.is_some() {
         files.push(foam("constant/fvOptions", "dictionary", template!("fvOptions")));
     }
@@ -92,10 +93,15 @@ pub fn files(scene: &DiscCase, packing: &Packing, name: &str, checkout: &Path) -
 /// make \[K\]; `grains`: number of grains of the bed, of which the mesh may be a part.
 pub fn programs(name: &str, checkout: &Path, tolerance: f64, grains: usize, steady: bool) -> Vec<File> {
     let keys = format!(
-        "temperatureTolerance    {};\n\n    // Number of grains of the whole bed, for 'msdd case solve'\n    grains                  {grains};{}",
-        plain(rounded(tolerance, 2)),
-        stop_when_steady(steady)
+        "temperatureTolerance    {};\n\n    // Number of grains of the whole bed, for 'msdd case solve'\n    grains                  {grains};",
+        plain(rounded(tolerance, 2))
     );
+    with_keys(name, checkout, keys, steady)
+}
+
+/// These files with the first keys of `system/fvSolution`.
+fn with_keys(name: &str, checkout: &Path, keys: String, steady: bool) -> Vec<File> {
+    let keys = keys + &stop_when_steady(steady);
     let values =
         vec![("checkout", checkout.display().to_string()), ("name", name.to_string()), ("tolerance", keys)];
     let foam = |path, template: &str| File::foam(path, "dictionary", &fill(template, &values));

@@ -1,6 +1,6 @@
 //! Values in the files of a new case: numbers and names as text.
 
-use crate::numbers::{plain, rounded};
+use crate::numbers::{plain, rounded, short};
 use crate::packing::{Packing, RADIUS_RANGE, Spread};
 use crate::scene::{DiscCase, Mechanics, WALLS};
 use crate::walls::WallOverTime;
@@ -25,38 +25,28 @@ const DISCS_COST: f64 = 4e-7;
 const EXTERNAL: &str =
     "\n        kappaMethod     lookup;\n        kappa           K;\n        value           $internalField;";
 
+const NO_SOURCE: &str = "; but msdd reference cannot simulate heat sources and refuses this case";
+
 pub(crate) type Values = Vec<(&'static str, String)>;
 
 /// The values that replace `@key@` in the templates.
 pub(crate) fn values(scene: &DiscCase, packing: &Packing, name: &str, checkout: &Path) -> Values {
     let depth = scene.cell()[0].min(scene.cell()[1]);
+    let moves = scene.mechanics == Mechanics::Equilibrium;
     let mut values: Values = vec![
-        (
-            "spaceProbes",
-            match scene.mechanics {
-                Mechanics::Equilibrium => include_str!("../templates/spaceProbes").to_string(),
-                Mechanics::None => String::new(),
-            },
-        ),
+        ("spaceProbes", when(moves, || include_str!("../templates/spaceProbes").to_string())),
         ("wallProfile", String::new()),
         ("checkout", checkout.display().to_string()),
         ("name", name.to_string()),
         ("mechanics", mechanics_name(scene.mechanics).to_string()),
-        ("depth", plain(rounded(depth, 3))),
+        ("depth", short(depth)),
         ("probes", probes(scene, depth)),
-        ("probesNote", format!(". z is between 0 and {} m", plain(rounded(depth, 3)))),
+        ("probesNote", format!(". z is between 0 and {} m", short(depth))),
         ("initialTemperature", plain(scene.initial_temperature)),
         ("walls", walls(WALLS.into_iter().zip(&scene.walls), false)),
         ("libraries", libraries(&scene.walls, false)),
         ("parts", "$..numberOfSubdomains 1 1".to_string()),
         ("heatSource", plain(scene.heat_source.unwrap_or(0.0))),
-        (
-            "tolerance",
-            match scene.tolerance {
-                Some(value) => format!("temperatureTolerance    {};", plain(value)),
-                None => "// temperatureTolerance    0.05;".to_string(),
-            } + &stop_when_steady(scene.steady),
-        ),
     ];
     values.extend(times(scene.end_time, scene.first_step()));
     values.extend([("model", scene.model.entry()), ("modelAbout", scene.model.about())]);
@@ -87,8 +77,8 @@ fn mesh_values(scene: &DiscCase, packing: &Packing) -> Values {
         ("height", plain(height)),
         ("nx", scene.cells[0].to_string()),
         ("ny", scene.cells[1].to_string()),
-        ("cellWidth", plain(rounded(cell_width, 3))),
-        ("cellHeight", plain(rounded(cell_height, 3))),
+        ("cellWidth", short(cell_width)),
+        ("cellHeight", short(cell_height)),
         ("grainsInCell", format!("{in_cell:.1}")),
         ("discs", plain(rounded(discs, 2))),
         ("discsTime", discs_time(scene, discs)),
@@ -111,26 +101,15 @@ fn readme_values(scene: &DiscCase, packing: &Packing) -> Values {
         ("boxGrains", packing.grains.to_string()),
         ("packing", table(packing)),
         ("sourceRow", source(scene.heat_source)),
-        (
-            "noSource",
-            match scene.heat_source {
-                Some(_) => {
-                    "; but msdd reference cannot simulate heat sources and refuses this case".to_string()
-                }
-                None => String::new(),
-            },
-        ),
+        ("noSource", when(scene.heat_source.is_some(), || NO_SOURCE.to_string())),
     ]
 }
 
 /// Keys of `system/fvSolution` of a run that ends once it is steady.
 pub(crate) fn stop_when_steady(steady: bool) -> String {
-    match steady {
-        true => "\n\n    // The run ends once T and p would change by less than this share in as long a time as the run so far\n    \
-                 stopWhenSteady          1e-3;"
-            .to_string(),
-        false => String::new(),
-    }
+    let text = "\n\n    // The run ends once T and p would change by less than this share in as long a time as the run so far\n    \
+                stopWhenSteady          1e-3;";
+    when(steady, || text.to_string())
 }
 
 /// Rows of the table in README.md for the walls.
@@ -158,11 +137,8 @@ pub fn discs_seconds(end: f64, period: f64, discs: f64) -> f64 {
 
 /// Estimated duration of a discrete element simulation of the case, as text; from measurements with the paper's grains.
 fn discs_time(scene: &DiscCase, discs: f64) -> String {
-    let seconds = discs_seconds(
-        scene.end_time,
-        contact_period(&scene.grains.material(), scene.grains.mean_radius),
-        discs,
-    );
+    let period = contact_period(&scene.grains.material(), scene.grains.mean_radius);
+    let seconds = discs_seconds(scene.end_time, period, discs);
     match seconds {
         ..60.0 => "seconds".to_string(),
         ..3600.0 => format!("{:.0} minutes", seconds / 60.0),
@@ -181,11 +157,8 @@ pub fn describe(wall: &WallOverTime) -> String {
         }
         WallOverTime::Flux(flux) => format!("{} W/m2 into the bed", plain(*flux)),
         WallOverTime::Table(rows) => {
-            let list: Vec<String> = rows
-                .iter()
-                .map(|[time, value]| format!("{} K at {} s", plain(*value), plain(*time)))
-                .collect();
-            list.join(", ")
+            let row = |[time, value]: &[f64; 2]| format!("{} K at {} s", plain(*value), plain(*time));
+            rows.iter().map(row).collect::<Vec<_>>().join(", ")
         }
     }
 }
@@ -209,15 +182,13 @@ pub fn packing_rows(packing: &Packing) -> Vec<[String; 3]> {
 }
 
 fn table(packing: &Packing) -> String {
-    let rows = packing_rows(packing)
-        .into_iter()
-        .map(|[what, mean, deviation]| format!("| {what} | {mean} | {deviation} |\n"));
-    let rows: String = rows.collect();
+    let row = |[what, mean, deviation]: [String; 3]| format!("| {what} | {mean} | {deviation} |\n");
+    let rows: String = packing_rows(packing).into_iter().map(row).collect();
     format!("| quantity | mean | scatter |\n|---|---|---|\n{}", rows.trim_end())
 }
 
 fn probes(scene: &DiscCase, depth: f64) -> String {
-    let z = plain(rounded(0.5 * depth, 3));
+    let z = short(0.5 * depth);
     let line = |[x, y]: &[f64; 2]| format!("            ({} {} {z})", plain(*x), plain(*y));
     scene.probes.iter().map(line).collect::<Vec<_>>().join("\n")
 }
@@ -300,6 +271,11 @@ pub fn compression_name(compression: Compression) -> &'static str {
         Compression::Intermediate => "intermediate",
         Compression::Sheared => "sheared",
     }
+}
+
+/// A text, or an empty one.
+pub fn when(given: bool, text: impl FnOnce() -> String) -> String {
+    if given { text() } else { String::new() }
 }
 
 /// Replaces every `@key@` by its value.

@@ -11,7 +11,7 @@ use msdd_case::fields::{FieldKind, head, uniform};
 use msdd_case::folder::{self, File, check_folder};
 use msdd_case::numbers::{plain, rounded};
 use msdd_case::spheres::wall::{self, WallMaterial};
-use msdd_case::values::property_text;
+use msdd_case::values::{property_text, when};
 use msdd_training::dem_start::FirstRow;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -205,17 +205,14 @@ fn properties(scene: &BedCase, start: &FirstRow, geometry: &Geometry) -> String 
         poisson_ratio: grains.poisson_ratio,
         hardness,
     };
-    let surface = match scene.heated.iter().any(|heated| heated.resists) {
-        true => surface.entry(grains.roughness.unwrap_or(0.0), hardness, INSULATED),
-        false => String::new(),
-    };
+    let resists = scene.heated.iter().any(|heated| heated.resists);
+    let surface = when(resists, || surface.entry(grains.roughness.unwrap_or(0.0), hardness, INSULATED));
     let spread = grains.sizes.as_ref().map_or(String::new(), |_| {
         format!("        sizeSpread      {};\n", plain(rounded(grains.moments().spread, 4)))
     });
-    let own_friction = match grains.friction == FRICTION {
-        true => String::new(),
-        false => format!("        friction        {};\n", plain(grains.friction)),
-    };
+    let own_friction = when(grains.friction != FRICTION, || {
+        format!("        friction        {};\n", plain(grains.friction))
+    });
     let mut text = format!(
         "// The law of spheres, and what the bed is like at the start\n\
          surrogate\n{{\n    type            spheres;\n    spheresCoeffs\n    {{\n\

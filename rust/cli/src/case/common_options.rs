@@ -9,7 +9,7 @@ use clap::Args;
 use msdd_case::CaseError;
 use msdd_case::disc_model::DiscModel;
 use msdd_case::material::OF_DISCS;
-use msdd_case::numbers::{plain, rounded};
+use msdd_case::numbers::{plain, short};
 use msdd_case::packing::{self, Discs, InitialPacking};
 use msdd_case::ranges;
 use msdd_case::scene::{
@@ -215,7 +215,7 @@ impl CommonOptions {
     }
 
     fn ask_box(&self, prompter: &Prompter, mean_radius: f64) -> Result<([f64; 2], [usize; 2]), CliError> {
-        let proposal = [129.0, 43.0].map(|radii| plain(rounded(radii * mean_radius, 3)));
+        let proposal = [129.0, 43.0].map(|radii| short(radii * mean_radius));
         let allowed = "two lengths, as 0.6x0.2; three belong to --spheres";
         let given = self.size.as_ref().map(|sides| sides.exactly("box", allowed)).transpose()?;
         let pair = |text: &str| parse_sides(text)?.exactly("box", allowed).map_err(|_| allowed.to_string());

@@ -11,7 +11,7 @@ use msdd_beds::property::Property;
 use msdd_beds::schedule::Schedule;
 use msdd_case::CaseError;
 use msdd_case::material::OF_SPHERES;
-use msdd_case::numbers::{plain, rounded};
+use msdd_case::numbers::{plain, rounded, short};
 use msdd_case::ranges;
 use msdd_case::scene::{Mechanics, parse_sides, parse_wall};
 use msdd_case::spheres::material::Spheres;
@@ -20,7 +20,7 @@ use msdd_case::spheres::scene::{
 };
 use msdd_case::spheres::shape::Shape;
 use msdd_case::spheres::wall::{self, WallMaterial};
-use msdd_case::values::describe;
+use msdd_case::values::{describe, when};
 use msdd_case::walls::WallOverTime;
 use serde::Deserialize;
 use std::f64::consts::PI;
@@ -243,11 +243,10 @@ impl SphereOptions {
             ("poissonRatio", own.poisson_ratio != base.poisson_ratio),
             ("roughness", own.roughness != base.roughness),
             ("hardness", own.hardness != base.hardness),
+            ("emissivity", own.emissivity != base.emissivity),
+            ("sizeSpread", spheres.size_spread > 0.0),
         ];
-        let changed = options.into_iter().filter(|(_, changed)| *changed);
-        let emissivity = (own.emissivity != base.emissivity).then_some("emissivity");
-        let sizes = (spheres.size_spread > 0.0).then_some("sizeSpread");
-        let changed: Vec<&str> = changed.map(|(key, _)| key).chain(emissivity).chain(sizes).collect();
+        let changed: Vec<&str> = options.into_iter().filter(|one| one.1).map(|one| one.0).collect();
         let material = match changed.is_empty() {
             true => material,
             false => format!("{material}; {} of your own", changed.join(", ")),
@@ -458,11 +457,8 @@ pub fn summary(scene: &SphereCase) -> Result<String, CliError> {
     let walls = scene.shape.walls().iter().zip(&scene.walls);
     let walls: Vec<String> = walls.map(|(name, wall)| format!("{name} {}", describe(wall))).collect();
     let start = scene.start()?;
-    let short = |value: f64| plain(rounded(value, 3));
-    let friction = match scene.wall_friction > 0.0 {
-        true => format!("\nwalls: {}", wall::sentence(scene.wall_friction)),
-        false => String::new(),
-    };
+    let rough = || format!("\nwalls: {}", wall::sentence(scene.wall_friction));
+    let friction = when(scene.wall_friction > 0.0, rough);
     let crushed = scene.spheres.crush_load.map_or(String::new(), |load| {
         let (d, solid) = (2.0 * scene.spheres.radius(), 1.0 - scene.porosity);
         let force = scene.pressure * PI * d * d / (solid * start.coordination);

@@ -6,7 +6,7 @@ use crate::error::CliError;
 use crate::output::write_json;
 use crate::spheres;
 use clap::Args;
-use msdd_case::numbers::{plain, rounded};
+use msdd_case::numbers::short;
 use msdd_files::{check_target, write};
 use msdd_rve::database::read_all;
 use msdd_surrogate::SurrogateError;
@@ -124,7 +124,6 @@ fn verdict(score: &Score) -> String {
 }
 
 fn friction_of_walls(friction: &WallFriction) -> String {
-    let short = |value: f64| plain(rounded(value, 3));
     format!(
         "Friction of walls: {} at most, half of it at a slip of {} mean radii (scatter {}, {} measured values).",
         short(friction.limit),

@@ -73,8 +73,8 @@ fn read_all(cases: &Path, moving: Option<&Path>, reference: &Path) -> Result<(Ve
     for (folder, name) in CASES {
         let mut run = |parent: &Path| -> Result<CaseResult, CliError> {
             let path = parent.join(folder);
-            let (result, model) = read::case(&path)?;
-            models.push((path, model));
+            let result = read::case(&path)?;
+            models.push((path, result.model.clone()));
             Ok(result)
         };
         let stay = run(cases)?;

@@ -108,10 +108,7 @@ fn friction(entry: &Dictionary, patch: &str, notes: &mut Vec<String>) -> Result<
 
 fn shell(entry: &Dictionary) -> Result<Shell, CliError> {
     let positive = |key: &str| entry.number(key, |value| value > 0.0 && value.is_finite(), "above 0");
-    let thermal_expansion = match entry.get("thermalExpansion") {
-        Some(_) => entry.number("thermalExpansion", f64::is_finite, "a number")?,
-        None => 0.0,
-    };
+    let thermal_expansion = entry.number_or("thermalExpansion", 0.0)?;
     Ok(Shell {
         young_modulus: positive("youngModulus")?,
         thickness: positive("thickness")?,
