@@ -32,9 +32,14 @@ pub struct File {
 
 impl File {
     /// A file of OpenFOAM, with its head.
-    pub(crate) fn foam(path: &'static str, class: &str, text: &str) -> Self {
+    pub fn foam(path: &'static str, class: &str, text: &str) -> Self {
         let object = path.rsplit('/').next().unwrap_or(path);
         Self { path, text: head(class, object) + text, program: false }
+    }
+
+    /// A field of the start with one value for all cells; `path`: in the folder `0`.
+    pub fn field(path: &'static str, kind: FieldKind, note: &str, value: &str) -> Self {
+        Self { path, text: uniform(path.trim_start_matches("0/"), kind, note, value), program: false }
     }
 }
 
@@ -156,28 +161,17 @@ fn initial_fields(packing: &Packing) -> Vec<File> {
         packing.grains,
         compression_name(packing.compression)
     );
-    let ratio = |path: &'static str, what: &str, spread: Spread| {
-        let name = path.trim_start_matches("0/");
-        let text =
-            uniform(name, FieldKind::Ratio, &format!("{what}\n{origin}"), &format!("{:.4}", spread.mean));
-        File { path, text, program: false }
-    };
+    let field =
+        |path, kind, what: &str, value: String| File::field(path, kind, &format!("{what}\n{origin}"), &value);
     let [xx, yy] = packing.stress.map(|stress| -rounded(stress.mean, 5));
-    let what = "Initial stress (xx xy xz yy yz zz) [Pa], tension positive as everywhere in OpenFOAM";
-    let stress =
-        uniform("stress", FieldKind::Stress, &format!("{what}\n{origin}"), &format!("({xx} 0 0 {yy} 0 0)"));
+    let ratio = |spread: Spread| format!("{:.4}", spread.mean);
+    let porosity = "Initial porosity: share of the plane without grains, overlaps counted once";
+    let fabric = "Initial fabric index F_xx - F_yy: above 0 when more contacts point along x";
+    let stress = "Initial stress (xx xy xz yy yz zz) [Pa], tension positive as everywhere in OpenFOAM";
     vec![
-        ratio(
-            "0/porosity",
-            "Initial porosity: share of the plane without grains, overlaps counted once",
-            packing.porosity,
-        ),
-        ratio(
-            "0/fabricIndex",
-            "Initial fabric index F_xx - F_yy: above 0 when more contacts point along x",
-            packing.fabric_index,
-        ),
-        File { path: "0/stress", text: stress, program: false },
+        field("0/porosity", FieldKind::Ratio, porosity, ratio(packing.porosity)),
+        field("0/fabricIndex", FieldKind::Ratio, fabric, ratio(packing.fabric_index)),
+        field("0/stress", FieldKind::Stress, stress, format!("({xx} 0 0 {yy} 0 0)")),
     ]
 }
 

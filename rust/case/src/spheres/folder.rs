@@ -6,7 +6,7 @@ use super::shape::{HALF_ANGLE, INNER, Shape};
 use super::start::{FABRIC, InitialBed, LATERAL};
 use super::wall;
 use crate::CaseError;
-use crate::fields::{FieldKind, uniform};
+use crate::fields::FieldKind;
 use crate::folder::{File, programs};
 use crate::numbers::{plain, rounded, short};
 use crate::scene::Mechanics;
@@ -61,21 +61,18 @@ fn tolerance(scene: &SphereCase) -> f64 {
 
 /// Porosity, fabric index, and the stress unless it follows from the weight, with the same value in all cells.
 fn initial_fields(scene: &SphereCase) -> Vec<File> {
-    let field = |path: &'static str, kind: FieldKind, note: &str, value: &str| {
-        let name = path.trim_start_matches("0/");
-        File { path, text: uniform(name, kind, note, value), program: false }
-    };
     let note = "Initial porosity: 1 - volume of the spheres over the volume";
     let mut fields = vec![
-        field("0/porosity", FieldKind::Ratio, note, &plain(scene.porosity)),
-        field("0/fabricIndex", FieldKind::Ratio, "Not used with spheres", "0"),
+        File::field("0/porosity", FieldKind::Ratio, note, &plain(scene.porosity)),
+        File::field("0/fabricIndex", FieldKind::Ratio, "Not used with spheres", "0"),
     ];
     if !rests(scene) {
         let note = "Initial stress (xx xy xz yy yz zz) [Pa], tension positive as everywhere in OpenFOAM: the vertical one is the \
                     pressure on the top";
         let vertical = scene.pressure;
         let horizontal = rounded(-LATERAL * vertical, 6);
-        fields.push(field("0/stress", FieldKind::Stress, note, &scene.shape.tensor(horizontal, -vertical)));
+        let stress = scene.shape.tensor(horizontal, -vertical);
+        fields.push(File::field("0/stress", FieldKind::Stress, note, &stress));
     }
     fields
 }

@@ -1,6 +1,5 @@
 //! The bed of a case as DEM describes it.
 
-use super::functions::{property, schedule};
 use super::shape::{DIGITS, Extent, Mesh};
 use super::walls::Walls;
 use crate::error::CliError;
@@ -13,6 +12,7 @@ use msdd_beds::schedule::Schedule;
 use msdd_beds::sizes::{Moments, Sizes};
 use msdd_case::case::{GRAIN_KEYS, optional, points};
 use msdd_case::dictionary::{Dictionary, Entry, joined};
+use msdd_case::functions::{property, schedule};
 use msdd_case::numbers::{plain, rounded};
 use std::f64::consts::PI;
 use std::path::Path;

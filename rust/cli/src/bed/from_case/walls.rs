@@ -1,11 +1,11 @@
 //! The walls of a case: what holds its bed.
 
-use super::functions::schedule;
 use super::shape::{DIGITS, Mesh};
 use crate::error::CliError;
 use msdd_beds::case::Shell;
 use msdd_beds::schedule::Schedule;
 use msdd_case::dictionary::{Dictionary, Entry};
+use msdd_case::functions::schedule;
 use msdd_case::numbers::{plain, rounded};
 use msdd_case::spheres::wall::of_spheres;
 
