@@ -3,13 +3,13 @@
 use crate::CaseError;
 use crate::dictionary::{Dictionary, Entry, Token, joined};
 use crate::model::ModelGrains;
-use crate::numbers::{plain, rounded};
+use crate::numbers::{plain, short};
 use crate::walls::{self, WallOverTime, heat_of_walls};
 use msdd_dem::{Material, Thermal};
 use std::path::{Path, PathBuf};
 
 /// Keys of `constant/granularProperties` for properties of the grains.
-const GRAIN_KEYS: [&str; 6] =
+pub const GRAIN_KEYS: [&str; 6] =
     ["density", "youngModulus", "thermalConductivity", "heatCapacity", "thermalExpansion", "meanRadius"];
 /// Keys there that concern the solver alone.
 const SOLVER_KEYS: [&str; 6] =
@@ -52,7 +52,7 @@ impl Case {
 
     /// What the surrogate says of the grains, in words.
     pub fn grains_of_surrogate(&self) -> String {
-        let [low, high] = self.radii.map(|ratio| plain(rounded(ratio, 3)));
+        let [low, high] = self.radii.map(short);
         format!(
             "friction angle {} rad, stiffness ratio {}, radii from {low} to {high} of the mean, as in the {}",
             plain(self.material.friction_angle),

@@ -138,6 +138,17 @@ impl Dictionary {
         self.number_in(key, tokens, good, allowed)
     }
 
+    /// A finite number, or the usual one where the key is missing.
+    ///
+    /// # Errors
+    /// Those of [`Dictionary::number`].
+    pub fn number_or(&self, key: &str, usual: f64) -> Result<f64, CaseError> {
+        match self.get(key) {
+            Some(_) => self.number(key, f64::is_finite, "a number"),
+            None => Ok(usual),
+        }
+    }
+
     /// The number of a value `uniform <number>`.
     ///
     /// # Errors

@@ -1,9 +1,9 @@
 //! The model of discs of a new case: the one that is compiled in, or a file that `msdd train` wrote. The start is packed from the grains
 //! that the model was trained with.
 
-use crate::CaseError;
 use crate::grains::Grains;
 use crate::numbers::{plain, rounded};
+use crate::{CaseError, refused};
 use msdd_dem::Material;
 use msdd_surrogate::{DatabaseProvenance, Surrogate, models};
 use std::path::Path;
@@ -64,10 +64,9 @@ impl DiscModel {
 
     fn refuse(path: &Path) -> impl Fn(String) -> CaseError {
         let value = path.display().to_string();
-        move |problem| CaseError::Parameter {
-            key: "model".to_string(),
-            value: value.clone(),
-            allowed: format!("a model file of discs, as 'msdd train' writes it: {problem}"),
+        move |problem| {
+            let allowed = format!("a model file of discs, as 'msdd train' writes it: {problem}");
+            refused("model", &value, allowed)
         }
     }
 

@@ -1,6 +1,5 @@
 //! Makes the files of a new case. The folder is complete and includes no files of other cases, so it can stand anywhere.
 
-use crate::CaseError;
 use crate::disc_model;
 use crate::fields::{FieldKind, head, uniform};
 use crate::numbers::{plain, rounded};
@@ -8,6 +7,7 @@ use crate::packing::{Packing, Spread};
 use crate::path;
 use crate::scene::DiscCase;
 use crate::values::{compression_name, fill, stop_when_steady, values};
+use crate::{CaseError, refused};
 use std::fs;
 use std::os::unix::fs::PermissionsExt;
 use std::path::{Path, PathBuf};
@@ -32,9 +32,14 @@ pub struct File {
 
 impl File {
     /// A file of OpenFOAM, with its head.
-    pub(crate) fn foam(path: &'static str, class: &str, text: &str) -> Self {
+    pub fn foam(path: &'static str, class: &str, text: &str) -> Self {
         let object = path.rsplit('/').next().unwrap_or(path);
         Self { path, text: head(class, object) + text, program: false }
+    }
+
+    /// A field of the start with one value for all cells; `path`: in the folder `0`.
+    pub fn field(path: &'static str, kind: FieldKind, note: &str, value: &str) -> Self {
+        Self { path, text: uniform(path.trim_start_matches("0/"), kind, note, value), program: false }
     }
 }
 
@@ -43,13 +48,7 @@ impl File {
 /// # Errors
 /// [`CaseError::Parameter`].
 pub fn check_folder(folder: &Path, force: bool) -> Result<PathBuf, CaseError> {
-    let refuse = |value: &Path, allowed: &str| {
-        Err(CaseError::Parameter {
-            key: "folder".to_string(),
-            value: value.display().to_string(),
-            allowed: allowed.to_string(),
-        })
-    };
+    let refuse = |value: &Path, allowed: &str| Err(refused("folder", value.display().to_string(), allowed));
     let Ok(whole) = std::path::absolute(folder) else {
         return refuse(folder, "a folder, or a name that is not there yet");
     };
@@ -72,18 +71,19 @@ pub fn files(scene: &DiscCase, packing: &Packing, name: &str, checkout: &Path) -
     let values = values(scene, packing, name, checkout);
     let filled = |template: &str| fill(template, &values);
     let foam = |path, class: &str, template: &str| File::foam(path, class, &filled(template));
-    let mut files = vec![
-        File { path: "Allrun", text: filled(template!("Allrun")), program: true },
-        File { path: "Allclean", text: filled(template!("Allclean")), program: true },
+    let tolerance = match scene.tolerance {
+        Some(value) => format!("temperatureTolerance    {};", plain(value)),
+        None => "// temperatureTolerance    0.05;".to_string(),
+    };
+    let mut files = with_keys(name, checkout, tolerance, scene.steady);
+    files.extend([
         File { path: "README.md", text: filled(template!("README.md")), program: false },
         foam("constant/granularProperties", "dictionary", template!("granularProperties")),
         foam("system/controlDict", "dictionary", template!("controlDict")),
         foam("system/blockMeshDict", "dictionary", template!("blockMeshDict")),
-        foam("system/fvSchemes", "dictionary", template!("fvSchemes")),
-        foam("system/fvSolution", "dictionary", template!("fvSolution")),
         foam("system/decomposeParDict", "dictionary", template!("decomposeParDict")),
         foam("0/T", "volScalarField", template!("T")),
-    ];
+    ]);
     if scene.heat_source.is_some() {
         files.push(foam("constant/fvOptions", "dictionary", template!("fvOptions")));
     }
@@ -98,10 +98,15 @@ pub fn files(scene: &DiscCase, packing: &Packing, name: &str, checkout: &Path) -
 /// make \[K\]; `grains`: number of grains of the bed, of which the mesh may be a part.
 pub fn programs(name: &str, checkout: &Path, tolerance: f64, grains: usize, steady: bool) -> Vec<File> {
     let keys = format!(
-        "temperatureTolerance    {};\n\n    // Number of grains of the whole bed, for 'msdd case solve'\n    grains                  {grains};{}",
-        plain(rounded(tolerance, 2)),
-        stop_when_steady(steady)
+        "temperatureTolerance    {};\n\n    // Number of grains of the whole bed, for 'msdd case solve'\n    grains                  {grains};",
+        plain(rounded(tolerance, 2))
     );
+    with_keys(name, checkout, keys, steady)
+}
+
+/// These files with the first keys of `system/fvSolution`.
+fn with_keys(name: &str, checkout: &Path, keys: String, steady: bool) -> Vec<File> {
+    let keys = keys + &stop_when_steady(steady);
     let values =
         vec![("checkout", checkout.display().to_string()), ("name", name.to_string()), ("tolerance", keys)];
     let foam = |path, template: &str| File::foam(path, "dictionary", &fill(template, &values));
@@ -156,28 +161,17 @@ fn initial_fields(packing: &Packing) -> Vec<File> {
         packing.grains,
         compression_name(packing.compression)
     );
-    let ratio = |path: &'static str, what: &str, spread: Spread| {
-        let name = path.trim_start_matches("0/");
-        let text =
-            uniform(name, FieldKind::Ratio, &format!("{what}\n{origin}"), &format!("{:.4}", spread.mean));
-        File { path, text, program: false }
-    };
+    let field =
+        |path, kind, what: &str, value: String| File::field(path, kind, &format!("{what}\n{origin}"), &value);
     let [xx, yy] = packing.stress.map(|stress| -rounded(stress.mean, 5));
-    let what = "Initial stress (xx xy xz yy yz zz) [Pa], tension positive as everywhere in OpenFOAM";
-    let stress =
-        uniform("stress", FieldKind::Stress, &format!("{what}\n{origin}"), &format!("({xx} 0 0 {yy} 0 0)"));
+    let ratio = |spread: Spread| format!("{:.4}", spread.mean);
+    let porosity = "Initial porosity: share of the plane without grains, overlaps counted once";
+    let fabric = "Initial fabric index F_xx - F_yy: above 0 when more contacts point along x";
+    let stress = "Initial stress (xx xy xz yy yz zz) [Pa], tension positive as everywhere in OpenFOAM";
     vec![
-        ratio(
-            "0/porosity",
-            "Initial porosity: share of the plane without grains, overlaps counted once",
-            packing.porosity,
-        ),
-        ratio(
-            "0/fabricIndex",
-            "Initial fabric index F_xx - F_yy: above 0 when more contacts point along x",
-            packing.fabric_index,
-        ),
-        File { path: "0/stress", text: stress, program: false },
+        field("0/porosity", FieldKind::Ratio, porosity, ratio(packing.porosity)),
+        field("0/fabricIndex", FieldKind::Ratio, fabric, ratio(packing.fabric_index)),
+        field("0/stress", FieldKind::Stress, stress, format!("({xx} 0 0 {yy} 0 0)")),
     ]
 }
 

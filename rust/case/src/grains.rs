@@ -35,6 +35,15 @@ pub fn check_value((key, value, unit): (&str, f64, &str)) -> Result<(), CaseErro
     allow(key, value, (least..=most).contains(&value), || format!("{least:e} to {most:e} {unit}"))
 }
 
+impl From<[f64; 6]> for Grains {
+    /// Of values in the order of [`Grains::named`].
+    fn from(values: [f64; 6]) -> Self {
+        let [density, young_modulus, thermal_conductivity, heat_capacity, thermal_expansion, mean_radius] =
+            values;
+        Self { density, young_modulus, thermal_conductivity, heat_capacity, thermal_expansion, mean_radius }
+    }
+}
+
 impl Grains {
     /// Values by the names that they have in `constant/granularProperties`, with unit.
     pub fn named(&self) -> [(&'static str, f64, &'static str); 6] {

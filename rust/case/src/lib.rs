@@ -5,6 +5,7 @@
 //! | [`dictionary`] | OpenFOAM dictionaries as `foamDictionary -expand` prints them |
 //! | `binary` | files with lists in binary |
 //! | [`case`] | material, temperatures, box and times of a case folder |
+//! | [`functions`] | functions of time and of temperature in dictionaries |
 //! | [`model`] | the grains that the surrogate of a case was made for |
 //! | [`walls`] | thermal boundary conditions of the walls over time |
 //! | [`mesh`] | a case's mesh, with centres and volumes of its cells |
@@ -32,6 +33,7 @@ pub mod dictionary;
 pub mod disc_model;
 pub mod fields;
 pub mod folder;
+pub mod functions;
 pub mod grains;
 pub mod material;
 pub mod mesh;
@@ -75,4 +77,9 @@ pub enum CaseError {
     Threads(std::io::Error),
     #[error(transparent)]
     File(#[from] msdd_files::FileError),
+}
+
+/// The error of a parameter whose value is not allowed.
+fn refused(key: impl Into<String>, value: impl Into<String>, allowed: impl Into<String>) -> CaseError {
+    CaseError::Parameter { key: key.into(), value: value.into(), allowed: allowed.into() }
 }

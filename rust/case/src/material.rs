@@ -15,8 +15,8 @@
 //!
 //! A required value may be given by its option of `msdd case new` instead. Numbers are in SI units, or texts with a unit.
 
-use crate::CaseError;
 use crate::grains::{GRAIN_EXPANSIONS, GRAIN_VALUES, Grains};
+use crate::{CaseError, refused};
 use msdd_beds::property::Property;
 use msdd_beds::units::{self, Given, GivenTable, Kind};
 use msdd_rve::message;
@@ -143,10 +143,6 @@ fn shipped(files: &[(&str, &str)]) -> Vec<Material> {
 /// Room temperature \[K\], for materials that propose none.
 const REFERENCE_TEMPERATURE: f64 = 293.15;
 
-fn refuse(key: String, value: String, allowed: String) -> CaseError {
-    CaseError::Parameter { key, value, allowed }
-}
-
 impl Material {
     /// The material that a name or a file means.
     ///
@@ -160,7 +156,7 @@ impl Material {
         if file.extension().is_none_or(|extension| extension != "toml") {
             let names: Vec<&str> = named.iter().map(|material| material.name.as_str()).collect();
             let allowed = format!("{}; or a file FILE.toml with the values of another", names.join(", "));
-            return Err(refuse("material".to_string(), given.to_string(), allowed));
+            return Err(refused("material", given, allowed));
         }
         let name = file.file_stem().unwrap_or_default().to_string_lossy();
         Self::parse(&name, given, &msdd_files::read_text(file)?)
@@ -172,11 +168,11 @@ impl Material {
             let error = error.to_string();
             // What serde expected is in the list of all keys, which has their ranges.
             let problem = error.split(", expected one of").next().unwrap_or_default().trim();
-            refuse(file.to_string(), problem.to_string(), all_keys())
+            refused(file, problem, all_keys())
         })?;
         let wrong = |key: &Key, text: &str| {
             let (value, allowed) = text.split_once(", allowed: ").unwrap_or((text, "see above"));
-            refuse(format!("{file}: {}", key.name), value.to_string(), allowed.to_string())
+            refused(format!("{file}: {}", key.name), value, allowed)
         };
         let number = |key: &Key, given: &Option<Given>| {
             let Some(given) = given else { return Ok::<_, CaseError>(None) };
@@ -227,7 +223,7 @@ impl Material {
     ) -> Result<f64, CaseError> {
         option.or(own).ok_or_else(|| {
             let allowed = format!("{}; or the option --{}", kind.allowed(), key.replace('_', "-"));
-            refuse(format!("material {}: {key}", self.name), "missing".to_string(), allowed)
+            refused(format!("material {}: {key}", self.name), "missing", allowed)
         })
     }
 
@@ -238,57 +234,24 @@ impl Material {
     pub fn grains(&self, own: &Values) -> Result<Grains, CaseError> {
         let at =
             |property: &Option<Property>| property.as_ref().map(|property| property.at(self.temperature));
-        let Values {
-            density,
-            young_modulus,
-            thermal_conductivity,
-            heat_capacity,
-            thermal_expansion,
-            mean_radius,
-        } = *own;
-        let conductivity = at(&self.thermal_conductivity);
-        let radius = self.diameter.map(|diameter| 0.5 * diameter);
-        Ok(Grains {
-            density: self.required("density", density, self.density, &units::DENSITY)?,
-            young_modulus: self.required(
-                "young_modulus",
-                young_modulus,
-                self.young_modulus,
-                &units::STRESS,
-            )?,
-            thermal_conductivity: self.required(
-                "thermal_conductivity",
-                thermal_conductivity,
-                conductivity,
-                &units::CONDUCTIVITY,
-            )?,
-            heat_capacity: self.required(
-                "heat_capacity",
-                heat_capacity,
-                at(&self.heat_capacity),
-                &units::HEAT_CAPACITY,
-            )?,
-            thermal_expansion: self.required(
-                "thermal_expansion",
-                thermal_expansion,
-                self.thermal_expansion,
-                &units::EXPANSION,
-            )?,
-            mean_radius: self.required("diameter", mean_radius, radius, &units::LENGTH)?,
-        })
+        let known: [(&str, Option<f64>, &Kind); 6] = [
+            ("density", self.density, &units::DENSITY),
+            ("young_modulus", self.young_modulus, &units::STRESS),
+            ("thermal_conductivity", at(&self.thermal_conductivity), &units::CONDUCTIVITY),
+            ("heat_capacity", at(&self.heat_capacity), &units::HEAT_CAPACITY),
+            ("thermal_expansion", self.thermal_expansion, &units::EXPANSION),
+            ("diameter", self.diameter.map(|diameter| 0.5 * diameter), &units::LENGTH),
+        ];
+        let mut values = [0.0; 6];
+        for ((value, own), (key, usual, kind)) in values.iter_mut().zip(own).zip(known) {
+            *value = self.required(key, *own, usual, kind)?;
+        }
+        Ok(Grains::from(values))
     }
 }
 
-/// Values that replace those of a material.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Values {
-    pub density: Option<f64>,
-    pub young_modulus: Option<f64>,
-    pub thermal_conductivity: Option<f64>,
-    pub heat_capacity: Option<f64>,
-    pub thermal_expansion: Option<f64>,
-    pub mean_radius: Option<f64>,
-}
+/// Values that replace those of a material, in the order of [`Grains::named`].
+pub type Values = [Option<f64>; 6];
 
 #[cfg(test)]
 mod tests {
@@ -309,7 +272,7 @@ mod tests {
     #[test]
     fn a_file_has_units_and_tables() {
         let own = Material::parse("own", "own.toml", OWN).unwrap();
-        let grains = own.grains(&Values { density: Some(2500.0), ..Values::default() }).unwrap();
+        let grains = own.grains(&[Some(2500.0), None, None, None, None, None]).unwrap();
         assert_eq!((grains.density, grains.young_modulus, grains.mean_radius), (2500.0, 71e9, 1.5e-3));
         assert!((grains.thermal_expansion - 8.8e-6).abs() < 1e-18);
         assert_eq!(own.thermal_conductivity.unwrap().at(0.5 * (293.15 + 673.15)), 1.2);

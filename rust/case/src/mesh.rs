@@ -3,6 +3,7 @@
 
 use crate::CaseError;
 use crate::binary;
+use crate::dictionary::{Dictionary, Token};
 use std::path::{Path, PathBuf};
 
 /// A part of the boundary.
@@ -95,7 +96,7 @@ pub(crate) fn minus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
 }
 
-pub(crate) fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+pub fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
@@ -175,33 +176,17 @@ fn content(file: &Path) -> Result<String, CaseError> {
 
 /// The patches of the file `boundary`.
 fn patches(file: &Path) -> Result<Vec<Patch>, CaseError> {
-    let text = content(file)?;
-    let mut patches = Vec::new();
-    for block in text.split('}') {
-        let Some((name, entries)) = block.split_once('{') else { continue };
-        let value = |key: &str| {
-            let words = entries.split(';').map(|entry| entry.split_whitespace().collect::<Vec<_>>());
-            words
-                .into_iter()
-                .find_map(|words| (words.len() == 2 && words[0] == key).then(|| words[1].to_string()))
+    let all = Dictionary::parse(file, &content(file)?)?;
+    let patch = |name: &Token| {
+        let own = all.dictionary_at(&name.text)?;
+        let count = |key: &str| {
+            let good = |value: f64| value >= 0.0 && value.fract() == 0.0;
+            own.number(key, good, "a whole number").map(|value| value as usize)
         };
-        let number = |key: &str| {
-            let text = value(key).unwrap_or_default();
-            text.parse().map_err(|_| CaseError::Key {
-                file: file.to_path_buf(),
-                key: format!("{}.{key}", name.trim()),
-                value: text,
-                allowed: "a number".to_string(),
-            })
-        };
-        patches.push(Patch {
-            name: name.trim().to_string(),
-            kind: value("type").unwrap_or_default(),
-            first: number("startFace")?,
-            count: number("nFaces")?,
-        });
-    }
-    Ok(patches)
+        let kind = own.text("type").unwrap_or_default();
+        Ok(Patch { name: name.text.clone(), kind, first: count("startFace")?, count: count("nFaces")? })
+    };
+    all.keys().map(patch).collect()
 }
 
 fn parsed<T: std::str::FromStr>(file: &Path, text: &str) -> Result<Vec<T>, CaseError> {

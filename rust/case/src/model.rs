@@ -70,13 +70,9 @@ impl ModelGrains {
     /// Of the boxes that the solver packs itself.
     fn of_boxes(own: &Dictionary) -> Result<Self, CaseError> {
         let usual = Material::default();
-        let value = |key: &str, usual: f64| match own.get(key) {
-            Some(_) => own.number(key, f64::is_finite, "a number"),
-            None => Ok(usual),
-        };
         let material = Material {
-            friction_angle: value("frictionAngle", usual.friction_angle)?,
-            stiffness_ratio: value("stiffnessRatio", usual.stiffness_ratio)?,
+            friction_angle: own.number_or("frictionAngle", usual.friction_angle)?,
+            stiffness_ratio: own.number_or("stiffnessRatio", usual.stiffness_ratio)?,
             ..usual
         };
         Ok(Self { material, radii: RADIUS_RANGE, source: "surrogate onlineRve".to_string() })

@@ -9,6 +9,11 @@ pub fn rounded(value: f64, digits: i32) -> f64 {
     format!("{value:.places$e}").parse().unwrap_or(value)
 }
 
+/// A number with three significant digits.
+pub fn short(value: f64) -> String {
+    plain(rounded(value, 3))
+}
+
 /// A number in its usual short form, such as 0.012 or 1.93e11, which gives exactly the same number when it is read.
 pub fn plain(value: f64) -> String {
     let size = value.abs();

@@ -1,9 +1,10 @@
 //! The initial state of a new case: means over small periodic boxes of its grains, packed by DEM.
 
-use crate::CaseError;
 use crate::disc_model::DiscModel;
 use crate::grains::Grains;
-use crate::numbers;
+use crate::numbers::short;
+use crate::ranges::allow;
+use crate::{CaseError, refused};
 use msdd_rve::message::number;
 use msdd_rve::{
     Averages, Boundary, Compression, PackingSpec, Preparation, RegionKind, Relaxation, homogenise, pack_as,
@@ -109,14 +110,12 @@ pub fn pack(
 pub fn check(discs: Discs, start: InitialPacking) -> Result<(), CaseError> {
     let [least, most] = discs.model.porosities();
     match start {
-        InitialPacking::Porosity(porosity) if !(least..=most).contains(&porosity) => {
-            Err(CaseError::Parameter {
-                key: "porosity".to_string(),
-                value: number(porosity),
-                allowed: format!(
+        InitialPacking::Porosity(porosity) => {
+            allow("porosity", porosity, (least..=most).contains(&porosity), || {
+                format!(
                     "{least} to {most}, the packings of discs that the model was trained with (in two dimensions; looser discs \
-                 hardly touch, denser ones overlap too much)"
-                ),
+                     hardly touch, denser ones overlap too much)"
+                )
             })
         }
         InitialPacking::Pressure(pressure) => {
@@ -124,25 +123,16 @@ pub fn check(discs: Discs, start: InitialPacking) -> Result<(), CaseError> {
             if (low..=high).contains(&pressure) {
                 return Ok(());
             }
-            Err(CaseError::Parameter {
-                key: "pressure".to_string(),
-                value: format!("{} Pa", number(pressure)),
-                allowed: format!(
-                    "{} to {} Pa for these grains, which is what packings of a porosity from {most} to {least} have. Pressure is \
-                     in proportion to youngModulus times meanRadius, while conduction depends on the porosity alone: with a \
-                     smaller youngModulus, as is usual in discrete element simulations, there is less pressure",
-                    rounded(low),
-                    rounded(high)
-                ),
-            })
+            let allowed = format!(
+                "{} to {} Pa for these grains, which is what packings of a porosity from {most} to {least} have. Pressure is \
+                 in proportion to youngModulus times meanRadius, while conduction depends on the porosity alone: with a \
+                 smaller youngModulus, as is usual in discrete element simulations, there is less pressure",
+                short(low),
+                short(high)
+            );
+            Err(refused("pressure", format!("{} Pa", number(pressure)), allowed))
         }
-        InitialPacking::Porosity(_) => Ok(()),
     }
-}
-
-/// A number with three significant digits.
-fn rounded(value: f64) -> String {
-    numbers::plain(numbers::rounded(value, 3))
 }
 
 impl Discs<'_> {
@@ -192,14 +182,8 @@ pub fn usual_fabric(compression: Compression) -> f64 {
 /// [`CaseError::Parameter`] for a porosity outside of [`POROSITIES`]; [`CaseError::Model`] when the model cannot be read.
 pub fn sum_porosity(porosity: f64) -> Result<f64, CaseError> {
     let [least, most] = POROSITIES;
-    if !(least..=most).contains(&porosity) {
-        let (key, value) = ("porosity".to_string(), number(porosity));
-        return Err(CaseError::Parameter {
-            key,
-            value,
-            allowed: format!("{least} to {most} for a packing of discs"),
-        });
-    }
+    let allowed = || format!("{least} to {most} for a packing of discs");
+    allow("porosity", porosity, (least..=most).contains(&porosity), allowed)?;
     Ok(1.0 - msdd_surrogate::models::builtin(msdd_surrogate::models::BUILTIN)?.solid_fraction(porosity))
 }
 
@@ -234,11 +218,8 @@ fn to_pressure(
         let [least, most] = discs.model.porosities();
         porosity = (known[0][0] + slope * (wanted - known[0][1])).clamp(least - 0.01, most + 0.01);
     }
-    Err(CaseError::Parameter {
-        key: "pressure".to_string(),
-        value: format!("{} Pa", number(pressure)),
-        allowed: format!("one that packings of these grains reach; {ROUNDS} rounds of packing did not"),
-    })
+    let allowed = format!("one that packings of these grains reach; {ROUNDS} rounds of packing did not");
+    Err(refused("pressure", format!("{} Pa", number(pressure)), allowed))
 }
 
 fn boxes_of(

@@ -1,6 +1,6 @@
 //! Paths that OpenFOAM can work with.
 
-use crate::CaseError;
+use crate::{CaseError, refused};
 use std::path::Path;
 
 /// What is allowed.
@@ -11,13 +11,9 @@ pub const ALLOWED: &str = "a path without blanks and quotation marks, which Open
 /// # Errors
 /// [`CaseError::Parameter`].
 pub fn check(whole: &Path) -> Result<(), CaseError> {
-    let refused = |byte: &u8| byte.is_ascii_whitespace() || b"\"'".contains(byte);
-    match whole.as_os_str().as_encoded_bytes().iter().any(refused) {
-        true => Err(CaseError::Parameter {
-            key: "folder".to_string(),
-            value: whole.display().to_string(),
-            allowed: ALLOWED.to_string(),
-        }),
+    let is_refused = |byte: &u8| byte.is_ascii_whitespace() || b"\"'".contains(byte);
+    match whole.as_os_str().as_encoded_bytes().iter().any(is_refused) {
+        true => Err(refused("folder", whole.display().to_string(), ALLOWED)),
         false => Ok(()),
     }
 }

@@ -1,8 +1,8 @@
 //! Ranges of single values of a new case: for the whole of it, and for each answer as soon as it is given.
 
-use crate::CaseError;
 use crate::numbers::rounded;
 use crate::walls::WallOverTime;
+use crate::{CaseError, refused};
 use msdd_beds::named_gases::GasName;
 use msdd_rve::message::number;
 
@@ -14,10 +14,7 @@ pub const MAX_CELLS: usize = 4_000_000;
 /// # Errors
 /// [`CaseError::Parameter`], as of all functions here.
 pub fn allow(key: &str, value: f64, good: bool, allowed: impl FnOnce() -> String) -> Result<(), CaseError> {
-    if good {
-        return Ok(());
-    }
-    Err(CaseError::Parameter { key: key.to_string(), value: number(value), allowed: allowed() })
+    if good { Ok(()) } else { Err(refused(key, number(value), allowed())) }
 }
 
 /// A length of a bed \[m\] with at least four grains of this radius side by side; the radius of a cylinder is half of its width.

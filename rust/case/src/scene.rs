@@ -1,12 +1,12 @@
 //! The parameters of a new case: box, walls, grains, initial state, end. Nothing is written or printed here.
 
-use crate::CaseError;
 use crate::disc_model::DiscModel;
 use crate::grains::Grains;
 use crate::numbers::rounded;
 use crate::packing::{self, Discs, InitialPacking};
 use crate::ranges;
 use crate::walls::{self, WallOverTime};
+use crate::{CaseError, refused};
 pub use msdd_beds::case::Mechanics;
 use msdd_beds::units::TEMPERATURE;
 use msdd_dem::WallHeat;
@@ -56,12 +56,13 @@ pub struct DiscCase {
 /// wider in large boxes.
 pub fn proposed_cells(size: [f64; 2], mean_radius: f64) -> [usize; 2] {
     let cell = (CELL_RADII * mean_radius).max(size[0].max(size[1]) / PROPOSED_CELLS);
-    cells_of(size, cell)
+    let cells = cells_of(&size, cell);
+    [cells[0], cells[1]]
 }
 
 /// Numbers of cells along each direction if the cells have about this side \[m\].
-pub fn cells_of<const N: usize>(size: [f64; N], cell: f64) -> [usize; N] {
-    size.map(|length| (length / cell).round().max(1.0) as usize)
+pub fn cells_of(size: &[f64], cell: f64) -> Vec<usize> {
+    size.iter().map(|length| (length / cell).round().max(1.0) as usize).collect()
 }
 
 /// Three points on the horizontal middle line of the box \[m\]: near the left wall, in the middle, near the right wall.
@@ -93,21 +94,12 @@ impl DiscCase {
             |[x, y]: [f64; 2]| (0.0..=self.size[0]).contains(&x) && (0.0..=self.size[1]).contains(&y);
         if let Some([x, y]) = self.probes.iter().copied().find(|&probe| !inside(probe)) {
             let allowed = format!("inside of the box, 0,0 to {},{} m", self.size[0], self.size[1]);
-            return Err(CaseError::Parameter {
-                key: "probe".to_string(),
-                value: format!("{x},{y}"),
-                allowed,
-            });
+            return Err(refused("probe", format!("{x},{y}"), allowed));
         }
         if self.mechanics == Mechanics::Equilibrium && !self.model.law().has_tangent() {
-            return Err(CaseError::Parameter {
-                key: "mechanics".to_string(),
-                value: "equilibrium".to_string(),
-                allowed: format!(
-                    "none with the model {}, which has no mechanical tangent",
-                    self.model.law().name()
-                ),
-            });
+            let name = self.model.law().name();
+            let allowed = format!("none with the model {name}, which has no mechanical tangent");
+            return Err(refused("mechanics", "equilibrium", allowed));
         }
         packing::check(self.discs(), self.start)
     }
@@ -179,11 +171,12 @@ impl<T: Copy + std::fmt::Display> Numbers<T> {
     /// # Errors
     /// [`CaseError::Parameter`] for another count, with what is `allowed`.
     pub fn exactly<const N: usize>(&self, key: &str, allowed: &str) -> Result<[T; N], CaseError> {
-        <[T; N]>::try_from(self.0.as_slice()).map_err(|_| CaseError::Parameter {
-            key: key.to_string(),
-            value: self.0.iter().map(ToString::to_string).collect::<Vec<_>>().join(", "),
-            allowed: allowed.to_string(),
-        })
+        <[T; N]>::try_from(self.0.as_slice()).map_err(|_| refused(key, self.text(), allowed))
+    }
+
+    /// The numbers for messages.
+    pub fn text(&self) -> String {
+        self.0.iter().map(ToString::to_string).collect::<Vec<_>>().join(", ")
     }
 }
 

@@ -1,6 +1,6 @@
 //! Values in the files of a new case: numbers and names as text.
 
-use crate::numbers::{plain, rounded};
+use crate::numbers::{plain, rounded, short};
 use crate::packing::{Packing, RADIUS_RANGE, Spread};
 use crate::scene::{DiscCase, Mechanics, WALLS};
 use crate::walls::WallOverTime;
@@ -21,38 +21,32 @@ const STEPS: f64 = 100.0;
 const DISCS_STEP: f64 = 0.8;
 const DISCS_COST: f64 = 4e-7;
 
+/// Last entries of the condition of a wall with a coefficient or a flux and without a resistance.
+const EXTERNAL: &str =
+    "\n        kappaMethod     lookup;\n        kappa           K;\n        value           $internalField;";
+
+const NO_SOURCE: &str = "; but msdd reference cannot simulate heat sources and refuses this case";
+
 pub(crate) type Values = Vec<(&'static str, String)>;
 
 /// The values that replace `@key@` in the templates.
 pub(crate) fn values(scene: &DiscCase, packing: &Packing, name: &str, checkout: &Path) -> Values {
     let depth = scene.cell()[0].min(scene.cell()[1]);
+    let moves = scene.mechanics == Mechanics::Equilibrium;
     let mut values: Values = vec![
-        (
-            "spaceProbes",
-            match scene.mechanics {
-                Mechanics::Equilibrium => include_str!("../templates/spaceProbes").to_string(),
-                Mechanics::None => String::new(),
-            },
-        ),
+        ("spaceProbes", when(moves, || include_str!("../templates/spaceProbes").to_string())),
         ("wallProfile", String::new()),
         ("checkout", checkout.display().to_string()),
         ("name", name.to_string()),
         ("mechanics", mechanics_name(scene.mechanics).to_string()),
-        ("depth", plain(rounded(depth, 3))),
+        ("depth", short(depth)),
         ("probes", probes(scene, depth)),
-        ("probesNote", format!(". z is between 0 and {} m", plain(rounded(depth, 3)))),
+        ("probesNote", format!(". z is between 0 and {} m", short(depth))),
         ("initialTemperature", plain(scene.initial_temperature)),
         ("walls", walls(WALLS.into_iter().zip(&scene.walls), false)),
         ("libraries", libraries(&scene.walls, false)),
         ("parts", "$..numberOfSubdomains 1 1".to_string()),
         ("heatSource", plain(scene.heat_source.unwrap_or(0.0))),
-        (
-            "tolerance",
-            match scene.tolerance {
-                Some(value) => format!("temperatureTolerance    {};", plain(value)),
-                None => "// temperatureTolerance    0.05;".to_string(),
-            } + &stop_when_steady(scene.steady),
-        ),
     ];
     values.extend(times(scene.end_time, scene.first_step()));
     values.extend([("model", scene.model.entry()), ("modelAbout", scene.model.about())]);
@@ -83,8 +77,8 @@ fn mesh_values(scene: &DiscCase, packing: &Packing) -> Values {
         ("height", plain(height)),
         ("nx", scene.cells[0].to_string()),
         ("ny", scene.cells[1].to_string()),
-        ("cellWidth", plain(rounded(cell_width, 3))),
-        ("cellHeight", plain(rounded(cell_height, 3))),
+        ("cellWidth", short(cell_width)),
+        ("cellHeight", short(cell_height)),
         ("grainsInCell", format!("{in_cell:.1}")),
         ("discs", plain(rounded(discs, 2))),
         ("discsTime", discs_time(scene, discs)),
@@ -107,26 +101,15 @@ fn readme_values(scene: &DiscCase, packing: &Packing) -> Values {
         ("boxGrains", packing.grains.to_string()),
         ("packing", table(packing)),
         ("sourceRow", source(scene.heat_source)),
-        (
-            "noSource",
-            match scene.heat_source {
-                Some(_) => {
-                    "; but msdd reference cannot simulate heat sources and refuses this case".to_string()
-                }
-                None => String::new(),
-            },
-        ),
+        ("noSource", when(scene.heat_source.is_some(), || NO_SOURCE.to_string())),
     ]
 }
 
 /// Keys of `system/fvSolution` of a run that ends once it is steady.
 pub(crate) fn stop_when_steady(steady: bool) -> String {
-    match steady {
-        true => "\n\n    // The run ends once T and p would change by less than this share in as long a time as the run so far\n    \
-                 stopWhenSteady          1e-3;"
-            .to_string(),
-        false => String::new(),
-    }
+    let text = "\n\n    // The run ends once T and p would change by less than this share in as long a time as the run so far\n    \
+                stopWhenSteady          1e-3;";
+    when(steady, || text.to_string())
 }
 
 /// Rows of the table in README.md for the walls.
@@ -154,11 +137,8 @@ pub fn discs_seconds(end: f64, period: f64, discs: f64) -> f64 {
 
 /// Estimated duration of a discrete element simulation of the case, as text; from measurements with the paper's grains.
 fn discs_time(scene: &DiscCase, discs: f64) -> String {
-    let seconds = discs_seconds(
-        scene.end_time,
-        contact_period(&scene.grains.material(), scene.grains.mean_radius),
-        discs,
-    );
+    let period = contact_period(&scene.grains.material(), scene.grains.mean_radius);
+    let seconds = discs_seconds(scene.end_time, period, discs);
     match seconds {
         ..60.0 => "seconds".to_string(),
         ..3600.0 => format!("{:.0} minutes", seconds / 60.0),
@@ -177,11 +157,8 @@ pub fn describe(wall: &WallOverTime) -> String {
         }
         WallOverTime::Flux(flux) => format!("{} W/m2 into the bed", plain(*flux)),
         WallOverTime::Table(rows) => {
-            let list: Vec<String> = rows
-                .iter()
-                .map(|[time, value]| format!("{} K at {} s", plain(*value), plain(*time)))
-                .collect();
-            list.join(", ")
+            let row = |[time, value]: &[f64; 2]| format!("{} K at {} s", plain(*value), plain(*time));
+            rows.iter().map(row).collect::<Vec<_>>().join(", ")
         }
     }
 }
@@ -205,15 +182,13 @@ pub fn packing_rows(packing: &Packing) -> Vec<[String; 3]> {
 }
 
 fn table(packing: &Packing) -> String {
-    let rows = packing_rows(packing)
-        .into_iter()
-        .map(|[what, mean, deviation]| format!("| {what} | {mean} | {deviation} |\n"));
-    let rows: String = rows.collect();
+    let row = |[what, mean, deviation]: [String; 3]| format!("| {what} | {mean} | {deviation} |\n");
+    let rows: String = packing_rows(packing).into_iter().map(row).collect();
     format!("| quantity | mean | scatter |\n|---|---|---|\n{}", rows.trim_end())
 }
 
 fn probes(scene: &DiscCase, depth: f64) -> String {
-    let z = plain(rounded(0.5 * depth, 3));
+    let z = short(0.5 * depth);
     let line = |[x, y]: &[f64; 2]| format!("            ({} {} {z})", plain(*x), plain(*y));
     scene.probes.iter().map(line).collect::<Vec<_>>().join("\n")
 }
@@ -221,8 +196,7 @@ fn probes(scene: &DiscCase, depth: f64) -> String {
 /// Patches of `0/T`. `resist`: walls that heat passes contain the resistance between wall and grains.
 pub(crate) fn walls<'a>(walls: impl Iterator<Item = (&'a str, &'a WallOverTime)>, resist: bool) -> String {
     let block = |(name, wall): (&str, &WallOverTime)| {
-        let condition = if resist && wall.conducts() { resisting(wall) } else { condition(wall) };
-        format!("    {name}\n    {{\n        {condition}\n    }}\n")
+        format!("    {name}\n    {{\n        {}\n    }}\n", condition(wall, resist))
     };
     walls.map(block).collect()
 }
@@ -234,51 +208,35 @@ fn rows_of(rows: &[[f64; 2]]) -> String {
     format!("table ({list} )")
 }
 
-/// The condition of a wall that heat passes, with the resistance between wall and grains.
-fn resisting(wall: &WallOverTime) -> String {
-    let (mode, entries) = match wall {
-        WallOverTime::Coefficient { coefficient, outside } => (
-            "coefficient",
-            format!("h               {};\n        Ta              {};", plain(*coefficient), plain(*outside)),
-        ),
-        WallOverTime::Flux(flux) => ("flux", format!("q               {};", plain(*flux))),
-        WallOverTime::Table(rows) => ("temperature", format!("temperature     {};", rows_of(rows))),
-        WallOverTime::Steady(WallHeat::Temperature(value)) => {
-            ("temperature", format!("temperature     {};", plain(*value)))
-        }
-        WallOverTime::Steady(_) => return condition(wall),
+/// The condition of a wall; `resist`: with the resistance between wall and grains, if heat passes.
+fn condition(wall: &WallOverTime, resist: bool) -> String {
+    let with_mode = |mode: &str, entries: String| {
+        let [kind, end] = match resist {
+            true => ["granularWall", ""],
+            false => ["externalWallHeatFluxTemperature", EXTERNAL],
+        };
+        format!("type            {kind};\n        mode            {mode};\n        {entries}{end}")
     };
-    format!("type            granularWall;\n        mode            {mode};\n        {entries}")
-}
-
-fn condition(wall: &WallOverTime) -> String {
-    let external = |mode: &str, entries: String| {
-        format!(
-            "type            externalWallHeatFluxTemperature;\n        mode            {mode};\n        {entries}\n        \
-             kappaMethod     lookup;\n        kappa           K;\n        value           $internalField;"
-        )
-    };
+    let temperature = |value: String| with_mode("temperature", format!("temperature     {value};"));
+    let [uniform, constant] = if resist { [""; 2] } else { ["uniform ", "constant "] };
     match wall {
-        WallOverTime::Coefficient { coefficient, outside } => external(
-            "coefficient",
-            format!(
-                "h               uniform {};\n        Ta              constant {};",
-                plain(*coefficient),
-                plain(*outside)
-            ),
+        WallOverTime::Coefficient { coefficient, outside } => {
+            let (h, outside) = (plain(*coefficient), plain(*outside));
+            let h = format!("h               {uniform}{h};\n        Ta              {constant}{outside};");
+            with_mode("coefficient", h)
+        }
+        WallOverTime::Flux(flux) => with_mode("flux", format!("q               {uniform}{};", plain(*flux))),
+        WallOverTime::Table(rows) if resist => temperature(rows_of(rows)),
+        WallOverTime::Table(rows) => format!(
+            "type            uniformFixedValue;\n        uniformValue    {};\n        value           uniform {};",
+            rows_of(rows),
+            plain(rows[0][1])
         ),
-        WallOverTime::Flux(flux) => external("flux", format!("q               uniform {};", plain(*flux))),
+        WallOverTime::Steady(WallHeat::Temperature(value)) if resist => temperature(plain(*value)),
         WallOverTime::Steady(WallHeat::Temperature(value)) => {
             format!("type    fixedValue;\n        value   uniform {};", plain(*value))
         }
         WallOverTime::Steady(_) => "type    zeroGradient;".to_string(),
-        WallOverTime::Table(rows) => {
-            format!(
-                "type            uniformFixedValue;\n        uniformValue    {};\n        value           uniform {};",
-                rows_of(rows),
-                plain(rows[0][1])
-            )
-        }
     }
 }
 
@@ -313,6 +271,11 @@ pub fn compression_name(compression: Compression) -> &'static str {
         Compression::Intermediate => "intermediate",
         Compression::Sheared => "sheared",
     }
+}
+
+/// A text, or an empty one.
+pub fn when(given: bool, text: impl FnOnce() -> String) -> String {
+    if given { text() } else { String::new() }
 }
 
 /// Replaces every `@key@` by its value.

@@ -2,10 +2,13 @@
 
 use crate::CaseError;
 use crate::dictionary::{Dictionary, Entry, Token, joined};
+use crate::functions::schedule;
+use msdd_beds::schedule::Schedule;
 use msdd_dem::{Side, WallHeat};
 
 /// Names of the four walls in the mesh, in the order of [`Side`].
 const PATCHES: [&str; 4] = ["left", "right", "bottom", "top"];
+const EACH: &str = "a dictionary for each of left, right, bottom, top";
 /// Patch types that say something about the mesh and not about heat. The standard include of OpenFOAM lists all of them,
 /// whether a patch has this type or not.
 const CONSTRAINTS: [&str; 12] = [
@@ -85,21 +88,6 @@ fn interpolated(rows: &[[f64; 2]], time: f64) -> f64 {
     from + (to - from) * ((time - t0) / (t1 - t0)).clamp(0.0, 1.0)
 }
 
-/// Reads `table ( ( 0 50 ) ( 2 70 ) ... )` with at least two rows.
-fn table(tokens: &[Token]) -> Option<WallOverTime> {
-    let [word, open, inner @ .., close] = tokens else { return None };
-    if [&word.text, &open.text, &close.text] != ["table", "(", ")"] {
-        return None;
-    }
-    let row = |chunk: &[Token]| match chunk {
-        [open, time, value, close] if open.text == "(" && close.text == ")" => {
-            Some([time.text.parse().ok()?, value.text.parse().ok()?])
-        }
-        _ => None,
-    };
-    WallOverTime::table(inner.chunks(4).map(row).collect::<Option<_>>()?)
-}
-
 /// The four walls of `0/T`, in the order of [`Side`].
 ///
 /// # Errors
@@ -124,13 +112,7 @@ pub fn heat_of_walls(file: &Dictionary) -> Result<[WallOverTime; 4], CaseError> 
         let name = PATCHES[side as usize];
         walls[side as usize] = match patches.matching(name) {
             Some(Entry::Dictionary(patch)) => wall_heat(patch)?,
-            _ => {
-                return Err(patches.refuse(
-                    name,
-                    "missing",
-                    "a dictionary for each of left, right, bottom, top",
-                ));
-            }
+            _ => return Err(patches.refuse(name, "missing", EACH)),
         };
     }
     Ok(walls)
@@ -147,10 +129,12 @@ fn wall_heat(patch: &Dictionary) -> Result<WallOverTime, CaseError> {
         "uniformFixedValue" => {
             patch.check_keys(&[&["type", "uniformValue", "value"]])?;
             let tokens = patch.value("uniformValue")?;
-            let table = table(tokens).ok_or_else(|| {
-                patch.refuse("uniformValue", &joined(tokens), "table ((time T) ...), times from 0 on, rising")
-            })?;
-            Ok(table)
+            let table = match schedule(tokens, 1, |value| value[0]) {
+                Some(Schedule::Table(rows)) => WallOverTime::table(rows),
+                _ => None,
+            };
+            let allowed = "table ((time T) ...), times from 0 on, rising";
+            table.ok_or_else(|| patch.refuse("uniformValue", &joined(tokens), allowed))
         }
         "zeroGradient" => {
             patch.check_keys(&[&["type", "value"]])?;

@@ -2,12 +2,12 @@
 
 use crate::error::CliError;
 use clap::Args;
-use msdd_dem_reference::solver::nonuniform;
+use msdd_case::results::Field;
 use msdd_draw::{Cells, Map, Sheet, maps, sheet};
 use msdd_files::{read_text, write};
 use msdd_rve::{Simulation, state};
 use std::fmt::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 #[derive(Args)]
 #[command(after_help = "Examples:
@@ -56,22 +56,18 @@ pub fn run(arguments: &Arguments) -> Result<(), CliError> {
     let simulation = state::from_json(&read_text(&arguments.state)?).map_err(|e| problem(e.to_string()))?;
     let mut figures = vec![grains(&simulation)];
     if let Some((path, cells)) = arguments.field.as_ref().zip(arguments.cells) {
-        let values = scalars(&read_text(path)?, cells)
-            .map_err(|text| CliError::Message(format!("{}: {text}", path.display())))?;
-        figures.push(map(&values, cells, &arguments.label));
+        figures.push(map(&scalars(path, cells)?, cells, &arguments.label));
     }
     Ok(write(&arguments.out, sheet(&figures, 2).as_bytes())?)
 }
 
-/// The values of a scalar field, if there are as many as `cells`.
-fn scalars(text: &str, cells: [usize; 2]) -> Result<Vec<f64>, String> {
-    let values: Vec<f64> = nonuniform(text)?.iter().filter_map(|row| row.first().copied()).collect();
-    let expected: usize = cells.iter().product();
-    if values.len() == expected {
-        Ok(values)
-    } else {
-        Err(format!("{} values, expected {expected} of {} x {} cells", values.len(), cells[0], cells[1]))
-    }
+/// The values of a scalar field in as many cells.
+fn scalars(path: &Path, cells: [usize; 2]) -> Result<Vec<f64>, CliError> {
+    let count = cells.iter().product();
+    let field = Field::read(path, count)?.filter(|field| field.cells.width == 1);
+    let wrong = || CliError::Message(format!("{}: allowed: a scalar field", path.display()));
+    let field = field.ok_or_else(wrong)?;
+    Ok((0..count).flat_map(|cell| field.cells.row(cell).to_vec()).collect())
 }
 
 /// The grains in grey and the contact forces as black lines.
@@ -129,8 +125,12 @@ mod tests {
 
     #[test]
     fn a_field_of_another_mesh_is_refused() {
-        let text = "internalField nonuniform List<scalar>\n3\n(\n1\n2\n3\n)\n;";
-        assert_eq!(scalars(text, [3, 1]).unwrap(), [1.0, 2.0, 3.0]);
-        assert_eq!(scalars(text, [2, 2]).unwrap_err(), "3 values, expected 4 of 2 x 2 cells");
+        let file = std::env::temp_dir().join(format!("msdd-draw-{}", std::process::id()));
+        let text = "class volScalarField; internalField nonuniform List<scalar>\n3\n(\n1\n2\n3\n)\n;";
+        std::fs::write(&file, text).unwrap();
+        assert_eq!(scalars(&file, [3, 1]).unwrap(), [1.0, 2.0, 3.0]);
+        let error = scalars(&file, [2, 2]).unwrap_err().to_string();
+        assert!(error.contains("3 values, allowed: 4, one for each cell of the mesh"), "{error}");
+        std::fs::remove_file(&file).unwrap();
     }
 }

@@ -11,6 +11,7 @@ mod confirm;
 mod database;
 mod draw;
 mod error;
+mod named;
 mod progress;
 mod reference;
 mod rve;

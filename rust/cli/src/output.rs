@@ -4,6 +4,7 @@
 use crate::error::CliError;
 use std::fmt::Arguments;
 use std::io::{self, Write};
+use std::path::Path;
 use std::sync::OnceLock;
 
 /// The first failure to write to standard output.
@@ -51,12 +52,23 @@ pub fn finish() -> Result<(), CliError> {
     FAILED.get().map_or(Ok(()), |error| Err(CliError::Output(error.to_string())))
 }
 
+fn json(value: &impl serde::Serialize) -> Result<String, CliError> {
+    serde_json::to_string_pretty(value).map_err(|error| CliError::Message(error.to_string()))
+}
+
+/// Writes a value as JSON.
+///
+/// # Errors
+/// When it has no form in JSON, or the file cannot be written.
+pub fn write_json(path: &Path, value: &impl serde::Serialize) -> Result<(), CliError> {
+    Ok(msdd_files::write(path, (json(value)? + "\n").as_bytes())?)
+}
+
 /// Prints a value as JSON.
 ///
 /// # Errors
 /// When it has no form in JSON.
 pub fn print_json(value: &impl serde::Serialize) -> Result<(), CliError> {
-    let text = serde_json::to_string_pretty(value);
-    outln!("{}", text.map_err(|error| CliError::Message(error.to_string()))?);
+    outln!("{}", json(value)?);
     Ok(())
 }

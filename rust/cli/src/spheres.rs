@@ -1,7 +1,8 @@
 //! What `msdd train` and `msdd score` print of the law of spheres.
 
 use crate::error::CliError;
-use msdd_files::{read_text, write};
+use crate::output::write_json;
+use msdd_files::read_text;
 use msdd_surrogate::models::{self, BUILTIN};
 use msdd_surrogate::spheres::errors::Errors;
 use msdd_surrogate::spheres::model::SphereModel;
@@ -52,9 +53,7 @@ pub fn score_models(models: &[PathBuf], database: &[PathBuf], json: Option<&Path
         all.push(print_scores(&model, &tracks, is_trained_on_it)?);
     }
     if let Some(path) = json {
-        let text = serde_json::to_string_pretty(&all)
-            .map_err(|error| CliError::Message(format!("cannot write the scores: {error}")))?;
-        write(path, (text + "\n").as_bytes())?;
+        write_json(path, &all)?;
     }
     Ok(())
 }

@@ -140,7 +140,7 @@ fn boxes_of_spheres_are_packed_strained_and_averaged() {
         ),
         ("pack --porosity 0.13 --compression uniaxial", None, "--compression: uniaxial, allowed: isotropic"),
         ("pack --spheres 60 --porosity 0.4", None, "cannot be used with"),
-        ("expand --strain 0.01 --affine", Some(&state), "--affine: is for discs"),
+        ("expand --strain 0.01 --rate 1", Some(&state), "--rate: is for discs"),
         ("expand --zz=-0.5", Some(&state), "allowed: -0.2 to 0.2"),
         ("expand --zz=-0.1,0 --xx=0.1", Some(&state), "--xx: 1 values, expected 2, one a stop"),
     ] {

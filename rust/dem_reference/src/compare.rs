@@ -184,14 +184,15 @@ fn means(by_packing: &[Vec<f64>]) -> Vec<f64> {
 }
 
 /// The series with the value at the start in front, which the solver does not write.
-fn with_start(series: &[[f64; 2]], start: f64) -> Vec<[f64; 2]> {
+pub fn with_start(series: &[[f64; 2]], start: f64) -> Vec<[f64; 2]> {
     match series.first() {
         Some(first) if first[0] > 1e-9 => [&[[0.0, start]], series].concat(),
         _ => series.to_vec(),
     }
 }
 
-fn difference(times: &[f64], series: &[[f64; 2]], dem: &[f64], scale: f64) -> Vec<f64> {
+/// A series less that of DEM at its times, times a factor.
+pub fn difference(times: &[f64], series: &[[f64; 2]], dem: &[f64], scale: f64) -> Vec<f64> {
     times.iter().zip(dem).map(|(&t, &value)| scale * (at(series, t) - value)).collect()
 }
 

@@ -6,12 +6,12 @@ use super::shape::{HALF_ANGLE, INNER, Shape};
 use super::start::{FABRIC, InitialBed, LATERAL};
 use super::wall;
 use crate::CaseError;
-use crate::fields::{FieldKind, uniform};
+use crate::fields::FieldKind;
 use crate::folder::{File, programs};
-use crate::numbers::{plain, rounded};
+use crate::numbers::{plain, rounded, short};
 use crate::scene::Mechanics;
 use crate::values::{
-    Values, fill, libraries, mechanics_name, property_text, source, times, wall_rows, walls,
+    Values, fill, libraries, mechanics_name, property_text, source, times, wall_rows, walls, when,
 };
 use std::f64::consts::PI;
 use std::path::Path;
@@ -61,25 +61,18 @@ fn tolerance(scene: &SphereCase) -> f64 {
 
 /// Porosity, fabric index, and the stress unless it follows from the weight, with the same value in all cells.
 fn initial_fields(scene: &SphereCase) -> Vec<File> {
-    let field = |path: &'static str, kind: FieldKind, note: &str, value: &str| {
-        let name = path.trim_start_matches("0/");
-        File { path, text: uniform(name, kind, note, value), program: false }
-    };
+    let note = "Initial porosity: 1 - volume of the spheres over the volume";
     let mut fields = vec![
-        field(
-            "0/porosity",
-            FieldKind::Ratio,
-            "Initial porosity: 1 - volume of the spheres over the volume",
-            &plain(scene.porosity),
-        ),
-        field("0/fabricIndex", FieldKind::Ratio, "Not used with spheres", "0"),
+        File::field("0/porosity", FieldKind::Ratio, note, &plain(scene.porosity)),
+        File::field("0/fabricIndex", FieldKind::Ratio, "Not used with spheres", "0"),
     ];
     if !rests(scene) {
         let note = "Initial stress (xx xy xz yy yz zz) [Pa], tension positive as everywhere in OpenFOAM: the vertical one is the \
                     pressure on the top";
         let vertical = scene.pressure;
         let horizontal = rounded(-LATERAL * vertical, 6);
-        fields.push(field("0/stress", FieldKind::Stress, note, &scene.shape.tensor(horizontal, -vertical)));
+        let stress = scene.shape.tensor(horizontal, -vertical);
+        fields.push(File::field("0/stress", FieldKind::Stress, note, &stress));
     }
     fields
 }
@@ -87,28 +80,23 @@ fn initial_fields(scene: &SphereCase) -> Vec<File> {
 fn values(scene: &SphereCase, name: &str, checkout: &Path) -> Result<Values, CaseError> {
     let start = scene.start()?;
     let probe = |probe: &Vec<f64>| format!("            {}", scene.shape.point(probe));
+    let places: Vec<String> = scene.probes.iter().map(|probe| scene.shape.place(probe)).collect();
     let named = || scene.shape.walls().iter().copied().zip(&scene.walls);
+    let (roughness, hardness) = (scene.spheres.roughness, scene.spheres.hardness);
+    let wall = scene.wall_material.map(|wall| wall.entry(roughness, hardness, 0.0));
     let mut values: Values = vec![
         ("checkout", checkout.display().to_string()),
         ("name", name.to_string()),
         ("mechanics", mechanics_name(scene.mechanics).to_string()),
         ("probes", scene.probes.iter().map(probe).collect::<Vec<_>>().join("\n")),
         ("probesNote", String::new()),
-        (
-            "probeColumns",
-            scene.probes.iter().map(|probe| scene.shape.place(probe)).collect::<Vec<_>>().join("; "),
-        ),
+        ("probeColumns", places.join("; ")),
         ("spaceProbes", String::new()),
         ("wallProfile", template!("spheres/wallProfile").to_string()),
         ("initialTemperature", plain(scene.initial_temperature)),
         ("walls", walls(named(), scene.wall_material.is_some()) + inner(&scene.shape)),
         ("libraries", libraries(&scene.walls, scene.wall_material.is_some())),
-        (
-            "wall",
-            scene.wall_material.map_or(String::new(), |wall| {
-                wall.entry(scene.spheres.roughness, scene.spheres.hardness, 0.0)
-            }),
-        ),
+        ("wall", wall.unwrap_or_default()),
         ("wallResistance", wall_resistance(scene)),
         ("wallRows", wall_rows(named())),
         ("wedge", wedge(&scene.shape).to_string()),
@@ -217,22 +205,20 @@ fn stress_row(scene: &SphereCase) -> String {
     }
 }
 
+const FLOW_RESULT: &str = "\n- **Gas**: its temperature is `gasTemperature` in the time folders; mass flux, temperature at the outlet and \
+                           pressure drop over time are in `postProcessing/flow`.";
+
 fn bed_values(scene: &SphereCase, start: &InitialBed) -> Result<Values, CaseError> {
-    let short = |value: f64| plain(rounded(value, 3));
     let [along, up] = FABRIC;
+    let gravity = match rests(scene) {
+        true => format!("{} m/s2 downwards", plain(scene.gravity)),
+        false => "none (no such file)".to_string(),
+    };
     Ok(vec![
         ("rest", rest(scene)),
         ("flow", flow(scene)),
         ("flowRow", flow_row(scene)),
-        (
-            "flowResult",
-            match scene.flow {
-                Some(_) => "\n- **Gas**: its temperature is `gasTemperature` in the time folders; mass flux, temperature at the outlet and \
-                            pressure drop over time are in `postProcessing/flow`."
-                    .to_string(),
-                None => String::new(),
-            },
-        ),
+        ("flowResult", when(scene.flow.is_some(), || FLOW_RESULT.to_string())),
         ("notFlow", if scene.flow.is_some() { "" } else { ", and flow of the gas" }.to_string()),
         ("gas", scene.gas.name.as_str().to_string()),
         ("gasPressure", plain(scene.gas.pressure)),
@@ -250,13 +236,7 @@ fn bed_values(scene: &SphereCase, start: &InitialBed) -> Result<Values, CaseErro
         ("porosity", plain(scene.porosity)),
         ("pressure", plain(scene.pressure)),
         ("stressRow", stress_row(scene)),
-        (
-            "gravity",
-            match scene.gravity > 0.0 {
-                true => format!("{} m/s2 downwards", plain(scene.gravity)),
-                false => "none (no such file)".to_string(),
-            },
-        ),
+        ("gravity", gravity),
     ])
 }
 
@@ -275,10 +255,8 @@ fn held(scene: &SphereCase) -> String {
         0.0 => "walls are smooth".to_string(),
         friction => format!("walls: {}", wall::sentence(friction)),
     };
-    let give = match scene.slack_layer > 0.0 {
-        true => format!("; a slack of {} diameters at top and bottom", plain(scene.slack_layer)),
-        false => String::new(),
-    };
+    let slack = || format!("; a slack of {} diameters at top and bottom", plain(scene.slack_layer));
+    let give = when(scene.slack_layer > 0.0, slack);
     format!("{top}, the side is {side}; {friction}{give}")
 }
 
@@ -307,10 +285,8 @@ fn rest(scene: &SphereCase) -> String {
     if scene.mechanics == Mechanics::None {
         return String::new();
     }
-    let give = match scene.slack_layer > 0.0 {
-        true => format!(" slackLayer {}; slackRecovery 0.1;", plain(scene.slack_layer)),
-        false => String::new(),
-    };
+    let slack = || format!(" slackLayer {}; slackRecovery 0.1;", plain(scene.slack_layer));
+    let give = when(scene.slack_layer > 0.0, slack);
     let rigid = wall::entry(scene.wall_friction, scene.spheres.sphere());
     let friction = wall::friction(scene.wall_friction, scene.spheres.sphere());
     let entry = |name: &str| match name {

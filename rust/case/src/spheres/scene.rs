@@ -4,11 +4,11 @@ use super::material::Spheres;
 use super::shape::Shape;
 use super::start::{InitialBed, PouredBed};
 use super::wall::{self, WallMaterial};
-use crate::CaseError;
 use crate::numbers::{plain, rounded};
 use crate::ranges::{self, allow};
 use crate::scene::Mechanics;
 use crate::walls::{self, WallOverTime};
+use crate::{CaseError, refused};
 use msdd_beds::case::{BedCase, Flow, GasKeys, Heated, Shell};
 use msdd_beds::effective::MIN_RATIO;
 use msdd_beds::named_gases::GasName;
@@ -16,10 +16,12 @@ use msdd_beds::property::VALUES;
 use msdd_beds::schedule::Schedule;
 use msdd_dem::WallHeat;
 use msdd_rve::message::number;
+use serde::Deserialize;
 use std::f64::consts::PI;
 
 /// What the top of the bed does.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Lid {
     /// It keeps the pressure of the start, and moves.
     #[default]
@@ -80,7 +82,7 @@ pub const GRAVITY: f64 = 9.81;
 pub const BED_HAS: &str = "bed has at least four spheres";
 
 fn refuse<T>(key: &str, value: &str, allowed: &str) -> Result<T, CaseError> {
-    Err(CaseError::Parameter { key: key.to_string(), value: value.to_string(), allowed: allowed.to_string() })
+    Err(refused(key, value, allowed))
 }
 
 /// Refuses a vertical stress on the top \[Pa\] that the law does not know of these spheres.
@@ -135,26 +137,22 @@ fn walls_of(heated: &[Heated], shape: &Shape) -> Result<Vec<WallOverTime>, CaseE
     if let Some(heated) = heated.iter().find(|heated| !names.contains(&heated.wall.as_str())) {
         return refuse("heated.wall", &heated.wall, &names.join(", "));
     }
-    let condition = |name: &&str| match heated.iter().find(|heated| heated.wall == *name) {
-        None => Ok(WallOverTime::Steady(WallHeat::Insulated)),
-        Some(Heated {
-            temperature: Some(Schedule::Constant(value)), coefficient: None, flux: None, ..
-        }) => Ok(WallOverTime::Steady(WallHeat::Temperature(*value))),
-        Some(Heated { temperature: Some(Schedule::Table(rows)), coefficient: None, flux: None, .. }) => {
-            let table = WallOverTime::table(rows.clone());
-            table.map_or_else(|| refuse("heated.temperature", name, "a table of rising times from 0 on"), Ok)
+    let condition = |name: &&str| {
+        let Some(own) = heated.iter().find(|heated| heated.wall == *name) else {
+            return Ok(WallOverTime::Steady(WallHeat::Insulated));
+        };
+        match (&own.temperature, own.coefficient, own.outside, own.flux) {
+            (Some(Schedule::Constant(value)), None, _, None) => {
+                Ok(WallOverTime::Steady(WallHeat::Temperature(*value)))
+            }
+            (Some(Schedule::Table(rows)), None, _, None) => WallOverTime::table(rows.clone())
+                .ok_or_else(|| refused("heated.temperature", *name, "a table of rising times from 0 on")),
+            (None, Some(coefficient), Some(outside), None) => {
+                Ok(WallOverTime::Coefficient { coefficient, outside })
+            }
+            (None, None, None, Some(flux)) => Ok(WallOverTime::Flux(flux)),
+            _ => refuse("heated", name, "one of temperature, flux, or coefficient with outside"),
         }
-        Some(Heated {
-            temperature: None,
-            coefficient: Some(coefficient),
-            outside: Some(outside),
-            flux: None,
-            ..
-        }) => Ok(WallOverTime::Coefficient { coefficient: *coefficient, outside: *outside }),
-        Some(Heated { temperature: None, coefficient: None, outside: None, flux: Some(flux), .. }) => {
-            Ok(WallOverTime::Flux(*flux))
-        }
-        Some(_) => refuse("heated", name, "one of temperature, flux, or coefficient with outside"),
     };
     names.iter().map(condition).collect()
 }
@@ -342,19 +340,9 @@ impl SphereCase {
         })?;
         ranges::wall_friction(self.wall_friction)?;
         let still = self.mechanics == Mechanics::None;
-        if still && self.wall_friction > 0.0 {
-            return refuse(
-                "wall friction",
-                &number(self.wall_friction),
-                "0 with mechanics none, where spheres stay where they are",
-            );
-        }
-        if still && self.gravity > 0.0 {
-            return refuse(
-                "gravity",
-                &number(self.gravity),
-                "0 with mechanics none, where spheres stay where they are",
-            );
+        for (key, value) in [("wall friction", self.wall_friction), ("gravity", self.gravity)] {
+            let allowed = || "0 with mechanics none, where spheres stay where they are".to_string();
+            allow(key, value, !still || value <= 0.0, allowed)?;
         }
         let Some(shell) = &self.shell else { return Ok(()) };
         let Shape::Cylinder { radius, .. } = self.shape else {
@@ -363,23 +351,15 @@ impl SphereCase {
         if still {
             return refuse("shell", "given", "with mechanics equilibrium");
         }
-        allow(
-            "Young's modulus of the shell",
-            shell.young_modulus,
-            (1.0..=1e15).contains(&shell.young_modulus),
-            || "1 to 1e15 Pa".to_string(),
-        )?;
-        let expansion = shell.thermal_expansion;
-        allow("thermal expansion of the shell", expansion, (0.0..=0.01).contains(&expansion), || {
-            "0 to 0.01 1/K".to_string()
-        })?;
+        let (modulus, expansion, thickness) = (shell.young_modulus, shell.thermal_expansion, shell.thickness);
+        let good = (1.0..=1e15).contains(&modulus);
+        allow("Young's modulus of the shell", modulus, good, || "1 to 1e15 Pa".to_string())?;
+        let good = (0.0..=0.01).contains(&expansion);
+        allow("thermal expansion of the shell", expansion, good, || "0 to 0.01 1/K".to_string())?;
         let most = 0.2 * radius;
-        allow(
-            "thickness of the shell",
-            shell.thickness,
-            0.0 < shell.thickness && shell.thickness <= most,
-            || format!("more than 0, at most a fifth of the radius, {} m", number(rounded(most, 3))),
-        )
+        allow("thickness of the shell", thickness, 0.0 < thickness && thickness <= most, || {
+            format!("more than 0, at most a fifth of the radius, {} m", number(rounded(most, 3)))
+        })
     }
 
     fn bed(&self) -> Result<PouredBed, CaseError> {

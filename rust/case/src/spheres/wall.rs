@@ -1,8 +1,9 @@
 //! The walls of a bed of spheres: the friction of a flat wall, and its material, from which the resistance between wall and spheres
 //! follows.
 
-use crate::CaseError;
-use crate::numbers::{plain, rounded};
+use crate::numbers::{plain, short};
+use crate::values::when;
+use crate::{CaseError, refused};
 
 /// The material of a wall.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -20,35 +21,21 @@ pub struct WallMaterial {
 /// Named materials of walls near room temperature, usual values of handbooks: structural steel, AISI 304, EN AW-6061, float glass. The
 /// first one is the default.
 pub const MATERIALS: [WallMaterial; 4] = [
-    WallMaterial {
-        name: "steel",
-        thermal_conductivity: 50.0,
-        young_modulus: 210e9,
-        poisson_ratio: 0.3,
-        hardness: 1.5e9,
-    },
-    WallMaterial {
-        name: "stainless-steel",
-        thermal_conductivity: 15.0,
-        young_modulus: 195e9,
-        poisson_ratio: 0.29,
-        hardness: 2e9,
-    },
-    WallMaterial {
-        name: "aluminium",
-        thermal_conductivity: 167.0,
-        young_modulus: 69e9,
-        poisson_ratio: 0.33,
-        hardness: 1.1e9,
-    },
-    WallMaterial {
-        name: "glass",
-        thermal_conductivity: 1.0,
-        young_modulus: 71e9,
-        poisson_ratio: 0.22,
-        hardness: 5.5e9,
-    },
+    of_values("steel", 50.0, 210e9, 0.3, 1.5e9),
+    of_values("stainless-steel", 15.0, 195e9, 0.29, 2e9),
+    of_values("aluminium", 167.0, 69e9, 0.33, 1.1e9),
+    of_values("glass", 1.0, 71e9, 0.22, 5.5e9),
 ];
+
+const fn of_values(
+    name: &'static str,
+    k: f64,
+    young_modulus: f64,
+    poisson_ratio: f64,
+    hardness: f64,
+) -> WallMaterial {
+    WallMaterial { name, thermal_conductivity: k, young_modulus, poisson_ratio, hardness }
+}
 
 impl WallMaterial {
     /// One of [`MATERIALS`], the first one unless a name is given; none by the name `none`.
@@ -59,11 +46,10 @@ impl WallMaterial {
         let name = name.unwrap_or(MATERIALS[0].name);
         let known = MATERIALS.into_iter().find(|material| material.name == name);
         match known {
-            None if name != "none" => Err(CaseError::Parameter {
-                key: "wall material".to_string(),
-                value: name.to_string(),
-                allowed: MATERIALS.map(|material| material.name).join(", ") + ", none",
-            }),
+            None if name != "none" => {
+                let allowed = MATERIALS.map(|material| material.name).join(", ") + ", none";
+                Err(refused("wall material", name, allowed))
+            }
             known => Ok(known),
         }
     }
@@ -71,13 +57,10 @@ impl WallMaterial {
     /// The entry `wall` of `spheresCoeffs`, for spheres of this roughness \[m\] and hardness \[Pa\] on a polished wall: they have the
     /// asperities, and the softer of both yields. The mesh ends `gap` diameters before the wall.
     pub fn entry(&self, roughness: f64, hardness: f64, gap: f64) -> String {
-        let rough = match roughness > 0.0 {
-            true => {
-                format!(" roughness {}; hardness {};", plain(roughness), plain(self.hardness.min(hardness)))
-            }
-            false => String::new(),
-        };
-        let gap = if gap > 0.0 { format!(" gap {};", plain(gap)) } else { String::new() };
+        let softer = self.hardness.min(hardness);
+        let rough =
+            when(roughness > 0.0, || format!(" roughness {}; hardness {};", plain(roughness), plain(softer)));
+        let gap = when(gap > 0.0, || format!(" gap {};", plain(gap)));
         format!(
             "\n        // Walls with the condition granularWall in 0/T: {}, polished. The resistance between wall and spheres follows from it\n\
              \x20       wall {{ thermalConductivity {}; youngModulus {}; poissonRatio {};{rough}{gap} }}\n",
@@ -111,10 +94,6 @@ pub fn sentence(friction: f64) -> String {
     format!("a friction of {} of a sphere acts on the bed as {}", plain(friction), short(of_bed(friction)))
 }
 
-fn short(value: f64) -> String {
-    plain(rounded(value, 3))
-}
-
 /// The coefficient of friction of spheres and a wall along which a bed slips with this tangential over normal stress: the inverse of
 /// [`of_bed`]. `None` beyond the most that a flat wall has.
 pub fn of_spheres(friction: f64) -> Option<f64> {
@@ -130,14 +109,11 @@ pub fn friction(friction: f64, sphere: [f64; 2]) -> String {
 /// The same for a mesh that ends before the side of a cylinder, whose radius is larger by the factor `widening`: so much more friction goes to
 /// the side as it is longer.
 pub fn widened_friction(friction: f64, [diameter, young_modulus]: [f64; 2], widening: f64) -> String {
-    match friction > 0.0 {
-        true => {
-            let slip = SLIP * diameter * (GLASS / young_modulus).powf(2.0 / 3.0);
-            let [friction, slip] = [widening * of_bed(friction), slip].map(short);
-            format!(" friction {friction}; slip {slip};")
-        }
-        false => String::new(),
-    }
+    when(friction > 0.0, || {
+        let slip = SLIP * diameter * (GLASS / young_modulus).powf(2.0 / 3.0);
+        let [friction, slip] = [widening * of_bed(friction), slip].map(short);
+        format!(" friction {friction}; slip {slip};")
+    })
 }
 
 /// A wall that stays, as an entry of `walls` in `constant/granularProperties`; `sphere` as in [`friction`](fn@friction).
@@ -152,12 +128,9 @@ pub fn entry(friction: f64, sphere: [f64; 2]) -> String {
 /// friction it expands from the floor, where the axis of the mesh begins.
 pub fn expansion(expansion: f64, temperature: f64, friction: f64) -> String {
     let fixed = if friction > 0.0 { " fixedPoint (0 0 0);" } else { "" };
-    match expansion > 0.0 {
-        true => {
-            format!(" thermalExpansion {}; temperature {};{fixed}", plain(expansion), plain(temperature))
-        }
-        false => String::new(),
-    }
+    when(expansion > 0.0, || {
+        format!(" thermalExpansion {}; temperature {};{fixed}", plain(expansion), plain(temperature))
+    })
 }
 
 #[cfg(test)]

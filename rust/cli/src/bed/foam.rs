@@ -7,11 +7,11 @@ use clap::Args;
 use msdd_beds::case::{BedCase, FRICTION, file_in};
 use msdd_beds::schedule::Schedule;
 use msdd_beds::sizes::MAX_SPREAD;
-use msdd_case::fields::{FieldKind, head, uniform};
+use msdd_case::fields::{FieldKind, head};
 use msdd_case::folder::{self, File, check_folder};
 use msdd_case::numbers::{plain, rounded};
 use msdd_case::spheres::wall::{self, WallMaterial};
-use msdd_case::values::property_text;
+use msdd_case::values::{property_text, when};
 use msdd_training::dem_start::FirstRow;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};
@@ -92,32 +92,28 @@ pub fn files(
     name: &str,
     checkout: &Path,
 ) -> Result<Vec<File>, CliError> {
-    let spread = scene.grains.moments().spread;
+    let compared = |wrong: String| {
+        let file = file_in(folder);
+        let text = format!("{}: grains.{wrong}, for which the law of spheres was compared", file.display());
+        Err(CliError::Message(text))
+    };
+    let (spread, friction, [low, high]) = (scene.grains.moments().spread, scene.grains.friction, FRICTIONS);
     if spread > MAX_SPREAD {
-        return Err(CliError::Message(format!(
-            "{}: grains.sizes: the spread of the diameters is {spread:.3} of their mean, by surface, allowed: up to {MAX_SPREAD}, for which the \
-             law of spheres was compared",
-            file_in(folder).display()
-        )));
+        return compared(format!(
+            "sizes: the spread of the diameters is {spread:.3} of their mean, by surface, allowed: up to {MAX_SPREAD}"
+        ));
     }
-    let friction = scene.grains.friction;
-    if !(FRICTIONS[0]..=FRICTIONS[1]).contains(&friction) {
-        return Err(CliError::Message(format!(
-            "{}: grains.friction = {friction}, allowed: {} to {}, for which the law of spheres was compared",
-            file_in(folder).display(),
-            FRICTIONS[0],
-            FRICTIONS[1]
-        )));
+    if !(low..=high).contains(&friction) {
+        return compared(format!("friction = {friction}, allowed: {low} to {high}"));
     }
     let geometry = Geometry::new(&file_in(folder), scene, start.depth)?;
     let porosity = geometry.porosity(start);
     let origin = format!("From DEM at the start: {}: written by 'msdd bed case'", start.file.display());
     let stress = geometry.tensor(start.stress.map(|stress| -stress));
     let text = |path: &'static str, text: String| File { path, text, program: false };
-    let dictionary = |path: &'static str, body: String| {
-        let object = path.rsplit('/').next().unwrap_or(path);
-        text(path, head("dictionary", object) + &body)
-    };
+    let dictionary = |path, body: String| File::foam(path, "dictionary", &body);
+    let porosity_note = format!("1 - volume of the spheres over the volume\n{origin}");
+    let stress_note = format!("Initial stress (xx xy xz yy yz zz) [Pa], tension positive\n{origin}");
     let gravity = format!(
         "dimensions      [0 1 -2 0 0 0 0];\nvalue           {};\n",
         geometry.along(-scene.container.gravity)
@@ -128,26 +124,10 @@ pub fn files(
     files.extend([
         text("README.md", readme(scene, start, name)),
         text("0/T", temperature(scene)),
-        text(
-            "0/porosity",
-            uniform(
-                "porosity",
-                FieldKind::Ratio,
-                &format!("1 - volume of the spheres over the volume\n{origin}"),
-                &plain(porosity),
-            ),
-        ),
-        text("0/fabricIndex", uniform("fabricIndex", FieldKind::Ratio, "Not used with spheres", "0")),
-        text(
-            "0/stress",
-            uniform(
-                "stress",
-                FieldKind::Stress,
-                &format!("Initial stress (xx xy xz yy yz zz) [Pa], tension positive\n{origin}"),
-                &stress,
-            ),
-        ),
-        text("constant/g", head("uniformDimensionedVectorField", "g") + &gravity),
+        File::field("0/porosity", FieldKind::Ratio, &porosity_note, &plain(porosity)),
+        File::field("0/fabricIndex", FieldKind::Ratio, "Not used with spheres", "0"),
+        File::field("0/stress", FieldKind::Stress, &stress_note, &stress),
+        File::foam("constant/g", "uniformDimensionedVectorField", &gravity),
         dictionary("constant/granularProperties", properties(scene, start, &geometry)),
         dictionary("system/controlDict", control(scene, &geometry)),
         dictionary("system/blockMeshDict", geometry.mesh()),
@@ -205,17 +185,14 @@ fn properties(scene: &BedCase, start: &FirstRow, geometry: &Geometry) -> String 
         poisson_ratio: grains.poisson_ratio,
         hardness,
     };
-    let surface = match scene.heated.iter().any(|heated| heated.resists) {
-        true => surface.entry(grains.roughness.unwrap_or(0.0), hardness, INSULATED),
-        false => String::new(),
-    };
+    let resists = scene.heated.iter().any(|heated| heated.resists);
+    let surface = when(resists, || surface.entry(grains.roughness.unwrap_or(0.0), hardness, INSULATED));
     let spread = grains.sizes.as_ref().map_or(String::new(), |_| {
         format!("        sizeSpread      {};\n", plain(rounded(grains.moments().spread, 4)))
     });
-    let own_friction = match grains.friction == FRICTION {
-        true => String::new(),
-        false => format!("        friction        {};\n", plain(grains.friction)),
-    };
+    let own_friction = when(grains.friction != FRICTION, || {
+        format!("        friction        {};\n", plain(grains.friction))
+    });
     let mut text = format!(
         "// The law of spheres, and what the bed is like at the start\n\
          surrogate\n{{\n    type            spheres;\n    spheresCoeffs\n    {{\n\

@@ -129,7 +129,7 @@ fn run_case(arguments: &RunArguments) -> Result<(), CliError> {
         }
         Ok(())
     })?;
-    out!("{}", table::text(&results));
+    table::print(&results);
     outln!("results: {}", out.display());
     Ok(())
 }
@@ -147,10 +147,9 @@ fn run_moving(arguments: &RunArguments) -> Result<(), CliError> {
         return Err(CliError::Message("--vary, allowed: of a bed with a plate".to_string()));
     }
     let out = results_folder(arguments);
-    let effort = moving::Effort { threads: arguments.threads as usize, yes: arguments.yes };
     match arguments.packings {
-        Some(count) => moving::compute_packings(&arguments.case, arguments.seed, count, effort, &out),
-        None => moving::compute(&arguments.case, arguments.seed, effort, &out),
+        Some(count) => moving::compute_packings(arguments, count, &out),
+        None => moving::compute(arguments, &out),
     }
 }
 

@@ -1,5 +1,6 @@
 //! `msdd bed run` of a folder with `bed.toml`: a bed whose walls move while heat flows.
 
+use super::RunArguments;
 use crate::confirm;
 use crate::error::CliError;
 use crate::progress::Progress;
@@ -12,7 +13,6 @@ use msdd_beds::packings::{at_start, join};
 use msdd_beds::rows::elements;
 use msdd_files::{check_writable, read_text, write};
 use msdd_surrogate::document::hash;
-use std::fmt::Write;
 use std::path::Path;
 use std::time::Instant;
 
@@ -23,29 +23,21 @@ const SCATTER: &str = "dem-scatter.csv";
 const STAGES: [(&str, u64, u64); 3] = [("pour", 0, 20), ("lid", 20, 5), ("harden", 25, 15)];
 const RUN: u64 = 40;
 
-/// Number of threads, and whether a long run begins without a question.
-#[derive(Clone, Copy)]
-pub struct Effort {
-    pub threads: usize,
-    pub yes: bool,
-}
-
-impl Effort {
-    /// Asks before packings of a bed that take long.
-    fn ask(self, scene: &BedCase, packings: f64) -> Result<(), CliError> {
-        let advice = "Fewer spheres (grains.number, with a smaller base or radius), a softer simulated_young_modulus, or fewer intervals and \
-                      steps take less";
-        confirm::long_run(packings * estimate(scene, self.threads).seconds, advice, self.yes)
-    }
+/// Asks before packings of a bed that take long.
+fn ask(arguments: &RunArguments, scene: &BedCase, packings: f64) -> Result<(), CliError> {
+    let advice = "Fewer spheres (grains.number, with a smaller base or radius), a softer simulated_young_modulus, or fewer intervals and \
+                  steps take less";
+    let seconds = packings * estimate(scene, arguments.threads as usize).seconds;
+    confirm::long_run(seconds, advice, arguments.yes)
 }
 
 /// Computes a bed, writes [`RESULTS`] into `out`, and prints a summary.
-pub fn compute(folder: &Path, seed: Option<u64>, effort: Effort, out: &Path) -> Result<(), CliError> {
-    let scene = scene(folder, seed)?;
-    effort.ask(&scene, 1.0)?;
+pub fn compute(arguments: &RunArguments, out: &Path) -> Result<(), CliError> {
+    let scene = scene(arguments)?;
+    ask(arguments, &scene, 1.0)?;
     let target = out.join(RESULTS);
     check_writable(&target)?;
-    let text = simulate(folder, &scene, effort.threads)?;
+    let text = simulate(arguments, &scene)?;
     write(&target, text.as_bytes())?;
     outln!("results: {}", target.display());
     Ok(())
@@ -53,15 +45,9 @@ pub fn compute(folder: &Path, seed: Option<u64>, effort: Effort, out: &Path) -> 
 
 /// The same for packings with this number of seeds, from that of the case on: writes the mean and the standard deviation, and keeps
 /// each packing's results, which are not computed again if they are of the same case and program.
-pub fn compute_packings(
-    folder: &Path,
-    seed: Option<u64>,
-    count: u32,
-    effort: Effort,
-    out: &Path,
-) -> Result<(), CliError> {
-    let first = scene(folder, seed)?;
-    effort.ask(&first, f64::from(count))?;
+pub fn compute_packings(arguments: &RunArguments, count: u32, out: &Path) -> Result<(), CliError> {
+    let first = scene(arguments)?;
+    ask(arguments, &first, f64::from(count))?;
     let last = first.seed.checked_add(u64::from(count) - 1).filter(|&last| i64::try_from(last).is_ok());
     let last = last.ok_or_else(|| {
         CliError::Message(format!("--packings {count}: seeds from {} on would be too large", first.seed))
@@ -72,7 +58,7 @@ pub fn compute_packings(
     for target in targets.iter().cloned().chain(seeds.iter().map(|&seed| file(seed))) {
         check_writable(&target)?;
     }
-    let input = read_text(&file_in(folder))?;
+    let input = read_text(&file_in(&arguments.case))?;
     let mut tables = Vec::new();
     for (number, &seed) in seeds.iter().enumerate() {
         let (begin, target) = (origin(&input, seed), file(seed));
@@ -82,7 +68,7 @@ pub fn compute_packings(
             continue;
         }
         outln!("packing {} of {count}, seed {seed}", number + 1);
-        let text = begin + &simulate(folder, &BedCase { seed, ..first.clone() }, effort.threads)?;
+        let text = begin + &simulate(arguments, &BedCase { seed, ..first.clone() })?;
         write(&target, text.as_bytes())?;
         tables.push(text);
     }
@@ -101,18 +87,18 @@ fn origin(input: &str, seed: u64) -> String {
     format!("# of {}, seed {seed}, engine {}\n", hash(input), msdd_beds::ENGINE_VERSION)
 }
 
-fn scene(folder: &Path, seed: Option<u64>) -> Result<BedCase, CliError> {
-    let scene = BedCase::read(folder)?;
-    Ok(BedCase { seed: seed.unwrap_or(scene.seed), ..scene })
+fn scene(arguments: &RunArguments) -> Result<BedCase, CliError> {
+    let scene = BedCase::read(&arguments.case)?;
+    Ok(BedCase { seed: arguments.seed.unwrap_or(scene.seed), ..scene })
 }
 
 /// The table of a packing; prints a summary.
-fn simulate(folder: &Path, scene: &BedCase, threads: usize) -> Result<String, CliError> {
-    let failed = |source| CliError::Bed { file: file_in(folder), source };
+fn simulate(arguments: &RunArguments, scene: &BedCase) -> Result<String, CliError> {
+    let failed = |source| CliError::Bed { file: file_in(&arguments.case), source };
     let mut progress = Progress::new("bed", 1000);
     let mut show = |percent: f64, note: &str| progress.set((10.0 * percent) as u64, 1000, note);
     let begin = Instant::now();
-    let prepared = prepare(scene, threads, |stage, share| {
+    let prepared = prepare(scene, arguments.threads as usize, |stage, share| {
         let (_, from, width) = STAGES.into_iter().find(|known| known.0 == stage).unwrap_or(STAGES[0]);
         show(from as f64 + width as f64 * share.min(0.999), stage);
     });
@@ -122,7 +108,7 @@ fn simulate(folder: &Path, scene: &BedCase, threads: usize) -> Result<String, Cl
         run(scene, &prepared, |share| show(RUN as f64 + (100 - RUN) as f64 * share.min(0.999), "heat"));
     let found = found.map_err(failed)?;
     progress.finish();
-    out!("{}", summary(scene, &prepared, &found));
+    print(scene, &prepared, &found);
     outln!("{ready:.0} s to prepare the bed, {:.0} s to heat it", begin.elapsed().as_secs_f64() - ready);
     Ok(elements(scene, &prepared, &found))
 }
@@ -137,19 +123,17 @@ fn start(scene: &BedCase, mobilisation: f64, [first, second, third]: [f64; 3]) -
     )
 }
 
-fn summary(scene: &BedCase, prepared: &Prepared, found: &Run) -> String {
-    let mut text = format!("{} grains, seed {}\n", prepared.simulation.spheres.len(), scene.seed);
+fn print(scene: &BedCase, prepared: &Prepared, found: &Run) {
+    outln!("{} grains, seed {}", prepared.simulation.spheres.len(), scene.seed);
     for (stage, rest) in &prepared.stages {
-        let _ = writeln!(text, "{stage:<8}{:>9} steps", rest.steps);
+        outln!("{stage:<8}{:>9} steps", rest.steps);
     }
-    let _ =
-        writeln!(text, "    t [s]   T mean [K]   p [kPa]   lid [kPa]   porosity   contacts   K [W/(m K)]");
+    outln!("    t [s]   T mean [K]   p [kPa]   lid [kPa]   porosity   contacts   K [W/(m K)]");
     let shown = (found.rows.len() / 10).max(1);
     let lid = scene.wall("lid").unwrap_or_default();
-    let line = |text: &mut String, row: &Row| {
+    let line = |row: &Row| {
         let p = row.stress.iter().sum::<f64>() / 3.0;
-        let _ = writeln!(
-            text,
+        outln!(
             "{:>9.0}   {:>10.2}   {:>7.2}   {:>9.2}   {:>8.4}   {:>8.3}   {:>11.4}",
             row.time,
             row.mean_temperature,
@@ -160,12 +144,11 @@ fn summary(scene: &BedCase, prepared: &Prepared, found: &Run) -> String {
             row.conductivity()
         );
     };
-    found.rows.iter().step_by(shown).for_each(|row| line(&mut text, row));
+    found.rows.iter().step_by(shown).for_each(line);
     let worst = found.rows.iter().map(|row| row.unbalanced).fold(0.0, f64::max);
-    let _ = writeln!(text, "largest force out of balance: {:.2} % of that on the lid", 100.0 * worst);
+    outln!("largest force out of balance: {:.2} % of that on the lid", 100.0 * worst);
     if found.overlap > MAX_OVERLAP {
-        let _ = writeln!(
-            text,
+        outln!(
             "Warning: spheres overlap by up to {:.1} % of their radius; Hertz's law is an extrapolation above {:.0} %, and forces and \
              stresses are too low",
             100.0 * found.overlap,
@@ -173,22 +156,22 @@ fn summary(scene: &BedCase, prepared: &Prepared, found: &Run) -> String {
         );
     }
     if found.hurried + found.restless > 0 {
-        let _ = writeln!(
-            text,
+        outln!(
             "Warning: in {} intervals the motion was cut short {} times and ended {} times before the bed was near rest: contacts slid that would not slide \
              at rest, and stresses may be off by tens of percent. Take shorter intervals, or more 'steps' in each.",
-            found.intervals, found.hurried, found.restless
+            found.intervals,
+            found.hurried,
+            found.restless
         );
     }
     if let Some(row) = found.rows.first() {
-        text += &start(scene, row.mobilisation, row.fabric);
+        out!("{}", start(scene, row.mobilisation, row.fabric));
     }
     if scene.grains.wall_friction > 0.0 {
         let known = || found.rows.iter().filter_map(|row| side_friction(scene, row));
         let (most, least) = (known().fold(f64::NAN, f64::max), known().fold(f64::NAN, f64::min));
         if most.is_finite() {
-            let _ = writeln!(
-                text,
+            outln!(
                 "friction of the side over its normal force: {least:.3} to {most:.3} (above 0: it holds the bed down)"
             );
         }
@@ -196,17 +179,15 @@ fn summary(scene: &BedCase, prepared: &Prepared, found: &Run) -> String {
     let peak = found.rows.iter().map(|row| row.peak).fold(f64::NAN, f64::max);
     let yielding = found.rows.iter().map(|row| row.yielding).fold(0.0, f64::max);
     if peak > 1.0 {
-        let _ = writeln!(
-            text,
+        outln!(
             "Note: up to {:.2} % of the contacts yield; Hertz's peak stress is up to {peak:.2} times that at which yielding begins",
             100.0 * yielding
         );
     } else if peak.is_finite() {
-        let _ = writeln!(text, "Hertz's peak stress is at most {peak:.2} of that at which yielding begins");
+        outln!("Hertz's peak stress is at most {peak:.2} of that at which yielding begins");
     }
     let noise = prepared.exchange.as_ref().and_then(Exchange::warning);
     for said in scene.closure().into_iter().chain(scene.varying_emissivity()).chain(noise) {
-        let _ = writeln!(text, "Note: {said}");
+        outln!("Note: {said}");
     }
-    text
 }

@@ -2,10 +2,11 @@
 
 use super::law::{folders_of, results_of};
 use crate::error::CliError;
+use crate::output::write_json;
 use clap::Args;
 use msdd_beds::case::BedCase;
 use msdd_beds::plates::{self, Give};
-use msdd_files::{check_target, read_text, write};
+use msdd_files::{check_target, read_text};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 
@@ -54,9 +55,7 @@ pub fn run(arguments: &Arguments) -> Result<(), CliError> {
     let [[give, _], [back, _]] = [all(|bed| bed.give), all(|bed| bed.back)];
     outln!("{:<45} {:>10}{:10} {:>10}", "mean of the beds", told(give), "", told(back));
     if let Some(path) = &arguments.json {
-        let text =
-            serde_json::to_string_pretty(&beds).map_err(|error| CliError::Message(error.to_string()))?;
-        write(path, text.as_bytes())?;
+        write_json(path, &beds)?;
     }
     Ok(())
 }

@@ -3,43 +3,35 @@
 use super::results::Results;
 use msdd_beds::exchange::Exchange;
 use msdd_beds::experiment::{Misfit, left_out};
-use std::fmt::Write;
 
-/// The packing, its conductivity, the differences from the measurements, and what is to be warned of.
-pub fn text(results: &Results) -> String {
-    let mut out = String::new();
-    packing(&mut out, results);
-    differences(&mut out, results);
+/// Prints the packing, its conductivity, the differences from the measurements, and what is to be warned of.
+pub fn print(results: &Results) {
+    packing(results);
+    differences(results);
     for warning in warnings(results) {
-        let _ = writeln!(out, "Note: {warning}");
+        outln!("Note: {warning}");
     }
-    out
 }
 
-fn packing(out: &mut String, results: &Results) {
+fn packing(results: &Results) {
     let bed = &results.bed;
-    let _ = writeln!(
-        out,
+    outln!(
         "{} grains, seed {}; they press on the plate with {:.1} Pa",
         bed.simulation.spheres.len(),
         results.case.seed,
         bed.plate_force() / bed.area(&results.case)
     );
     if results.case.grains.sizes.is_some() {
-        let _ = writeln!(out, "{}", results.case.grains.moments());
+        outln!("{}", results.case.grains.moments());
     }
     let radiates = bed.exchange.is_some();
     let more = if radiates { " + radiation" } else { "" };
-    let _ = writeln!(
-        out,
-        "mm from the plate   porosity   contacts   p [Pa]   k [W/(m K)] = contacts + gas{more}"
-    );
+    outln!("mm from the plate   porosity   contacts   p [Pa]   k [W/(m K)] = contacts + gas{more}");
     for ([from, to], slab) in &results.slabs {
         let (contacts, gas) = (slab.contact_conductivity, slab.gas_conductivity);
         let radiation = slab.radiation_conductivity;
         let more = if radiates { format!(" + {radiation:.3}") } else { String::new() };
-        let _ = writeln!(
-            out,
+        outln!(
             "{:>6.0} to {:<6.0}      {:<8.3}   {:<8.2}   {:<6.0}   {:.3} = {contacts:.3} + {gas:.3}{more}",
             1e3 * from,
             1e3 * to,
@@ -51,25 +43,25 @@ fn packing(out: &mut String, results: &Results) {
     }
 }
 
-fn differences(out: &mut String, results: &Results) {
+fn differences(results: &Results) {
     if results.measured.is_empty() {
         return;
     }
-    let _ = writeln!(out, "simulated less measured [K]");
-    let _ = writeln!(out, "plate       mm from it   points     rms   worst    mean");
+    outln!("simulated less measured [K]");
+    outln!("plate       mm from it   points     rms   worst    mean");
     for run in &results.compared {
         for misfit in &run.misfits {
             let place = misfit.distance.map_or("all".to_string(), |d| format!("{:.0}", 1e3 * d));
-            let _ = writeln!(out, "{:<12}{place:>10}   {}", run.heated.kind.as_str(), numbers(misfit));
+            outln!("{:<12}{place:>10}   {}", run.heated.kind.as_str(), numbers(misfit));
         }
     }
     if results.varied.is_empty() {
         return;
     }
-    let _ = writeln!(out, "with one value changed, all distances [K]");
+    outln!("with one value changed, all distances [K]");
     for varied in &results.varied {
         let what = format!("{} = {}", varied.key, varied.value);
-        let _ = writeln!(out, "{:<12}{what:<36} {}", varied.kind.as_str(), numbers(&varied.misfit));
+        outln!("{:<12}{what:<36} {}", varied.kind.as_str(), numbers(&varied.misfit));
     }
 }
 

@@ -1,20 +1,22 @@
 //! The user's choices for a new case: options, and questions about everything that is not given as an option.
 
 use super::disc_options::GrainWishes;
-use super::prompts::{Prompter, number, temperature};
+use super::prompts::{Prompter, number, temperature, wrong};
+use super::sphere_options::ask_walls;
 use crate::error::CliError;
-use clap::{Args, ValueEnum};
+use crate::named::{choice, parser};
+use clap::Args;
 use msdd_case::CaseError;
 use msdd_case::disc_model::DiscModel;
 use msdd_case::material::OF_DISCS;
-use msdd_case::numbers::{plain, rounded};
+use msdd_case::numbers::{plain, short};
 use msdd_case::packing::{self, Discs, InitialPacking};
 use msdd_case::ranges;
 use msdd_case::scene::{
-    BOX_HAS, DiscCase, Mechanics, Numbers, SIDES, cells_of, parse_point, parse_sides, parse_wall,
+    BOX_HAS, DiscCase, Mechanics, Numbers, SIDES, WALLS, cells_of, parse_point, parse_sides, parse_wall,
     proposed_cells, proposed_probes,
 };
-use msdd_case::values::describe;
+use msdd_case::values::{describe, mechanics_name};
 use msdd_case::walls::WallOverTime;
 use msdd_rve::Compression;
 use std::path::PathBuf;
@@ -86,12 +88,12 @@ pub struct CommonOptions {
     pub(super) model: Option<PathBuf>,
     /// How the discs were compressed: equally from all sides, or along x alone, as `msdd reference` fills its box (then more
     /// contacts point along x, and the bed conducts better along x). Default: a proposal.
-    #[arg(long, value_enum, help_heading = "Packing at the start")]
-    pub(super) compression: Option<CompressionName>,
+    #[arg(long, value_parser = parser::<Compression>(&COMPRESSIONS), help_heading = "Packing at the start")]
+    pub(super) compression: Option<Compression>,
     /// Whether the grains move until the stress is in equilibrium, as real grains do, or stay where they are, as in the
     /// paper. Default: a proposal.
-    #[arg(long, value_enum, help_heading = "Computation")]
-    pub(super) mechanics: Option<MechanicsName>,
+    #[arg(long, value_parser = parser::<Mechanics>(&MECHANICS), help_heading = "Computation")]
+    pub(super) mechanics: Option<Mechanics>,
     /// End of the simulation [s]. Allowed: 1e-9 to 1e12. Default: the time in which heat spreads over the box.
     #[arg(long, value_name = "S", help_heading = "Computation")]
     pub(super) end_time: Option<f64>,
@@ -110,17 +112,8 @@ pub struct CommonOptions {
     pub(super) probes: Vec<Numbers<f64>>,
 }
 
-#[derive(Clone, Copy, ValueEnum)]
-pub enum CompressionName {
-    Isotropic,
-    Horizontal,
-}
-
-#[derive(Clone, Copy, ValueEnum)]
-pub enum MechanicsName {
-    Equilibrium,
-    None,
-}
+const COMPRESSIONS: [&str; 2] = ["isotropic", "horizontal"];
+const MECHANICS: [&str; 2] = ["equilibrium", "none"];
 
 impl CommonOptions {
     /// The scene, once all questions are answered.
@@ -133,10 +126,14 @@ impl CommonOptions {
         let (size, cells) = self.ask_box(prompter, grains.mean_radius)?;
         let proposal = coldest(self.given_walls()).unwrap_or(base.temperature);
         let initial_temperature = self.ask_initial(prompter, proposal, ranges::temperature)?;
-        let walls = self.ask_walls(prompter, initial_temperature)?;
+        let read = prompter
+            .within(parse_wall, |wall| ranges::wall(wall, |value| ranges::temperature("wall", value)));
+        let given = self.given_walls().map(Option::clone).to_vec();
+        let walls = ask_walls(prompter, &WALLS, given, initial_temperature, [false, true], read)?;
+        let walls = walls.try_into().map_err(|_| CliError::Message("four walls".to_string()))?;
         let compression = self.ask_compression(prompter)?;
         let start = self.ask_start(prompter, Discs { grains: &grains, model: &model, compression })?;
-        let usual = if model.law().has_tangent() { MechanicsName::Equilibrium } else { MechanicsName::None };
+        let usual = if model.law().has_tangent() { Mechanics::Equilibrium } else { Mechanics::None };
         let mut scene = DiscCase {
             size,
             cells,
@@ -181,16 +178,32 @@ impl CommonOptions {
     }
 
     /// The cells that options give, of a bed with these sides [m].
-    pub(super) fn given_cells<const N: usize>(
-        &self,
-        sides: [f64; N],
-    ) -> Result<Option<[usize; N]>, CliError> {
+    fn given_cells(&self, sides: &[f64]) -> Result<Option<Vec<usize>>, CliError> {
         match (self.cell_size, &self.cells) {
             (Some(cell), _) if cell > 0.0 && cell.is_finite() => Ok(Some(cells_of(sides, cell))),
-            (Some(cell), _) => Err(CliError::Message(format!("cell size = {cell}, allowed: > 0 m"))),
-            (None, Some(cells)) => Ok(Some(cells.exactly("cells", &format!("{N} numbers"))?)),
+            (Some(cell), _) => Err(wrong("cell size", &cell.to_string(), "> 0 m")),
+            (None, Some(cells)) if cells.0.len() == sides.len() => Ok(Some(cells.0.clone())),
+            (None, Some(cells)) => Err(wrong("cells", &cells.text(), &format!("{} numbers", sides.len()))),
             (None, None) => Ok(None),
         }
+    }
+
+    /// The cells of a bed with these sides [m].
+    pub(super) fn ask_cells(
+        &self,
+        prompter: &Prompter,
+        help: &str,
+        sides: &[f64],
+        proposal: &[usize],
+    ) -> Result<Vec<usize>, CliError> {
+        let proposal = proposal.iter().map(ToString::to_string).collect::<Vec<_>>().join("x");
+        let allowed = || format!("{} numbers with an x between, such as {proposal}", sides.len());
+        let read = |text: &str| {
+            let cells = parse_sides(text).ok().map(|cells| cells.0);
+            cells.filter(|cells| cells.len() == sides.len()).ok_or_else(allowed)
+        };
+        let read = prompter.within(read, |cells: &Vec<usize>| ranges::cells(cells));
+        prompter.value(self.given_cells(sides)?, help, "Cells along each direction", &proposal, read)
     }
 
     fn points(&self, size: [f64; 2]) -> Result<Vec<[f64; 2]>, CliError> {
@@ -202,7 +215,7 @@ impl CommonOptions {
     }
 
     fn ask_box(&self, prompter: &Prompter, mean_radius: f64) -> Result<([f64; 2], [usize; 2]), CliError> {
-        let proposal = [129.0, 43.0].map(|radii| plain(rounded(radii * mean_radius, 3)));
+        let proposal = [129.0, 43.0].map(|radii| short(radii * mean_radius));
         let allowed = "two lengths, as 0.6x0.2; three belong to --spheres";
         let given = self.size.as_ref().map(|sides| sides.exactly("box", allowed)).transpose()?;
         let pair = |text: &str| parse_sides(text)?.exactly("box", allowed).map_err(|_| allowed.to_string());
@@ -220,49 +233,14 @@ impl CommonOptions {
             &proposal.join("x"),
             pair,
         )?;
-        let [nx, ny] = proposed_cells(size, mean_radius);
-        let pair = |text: &str| {
-            parse_sides(text)?.exactly("cells", "").map_err(|_| "two numbers, as 30x10".to_string())
-        };
-        let cells = prompter.value(
-            self.given_cells(size)?,
-            "The box is divided into cells; each stands for the grains in it, which should be four or more. More cells resolve \
-             more and take longer.",
-            "Cells along x and y",
-            &format!("{nx}x{ny}"),
-            prompter.within(pair, |cells: &[usize; 2]| ranges::cells(cells)),
-        )?;
-        Ok((size, cells))
+        let help = "The box is divided into cells; each stands for the grains in it, which should be four or more. More cells resolve \
+                    more and take longer.";
+        let cells = self.ask_cells(prompter, help, &size, &proposed_cells(size, mean_radius))?;
+        Ok((size, [cells[0], cells[1]]))
     }
 
     fn given_walls(&self) -> [&Option<WallOverTime>; 4] {
         [&self.left, &self.right, &self.bottom, &self.top]
-    }
-
-    /// Where options gave any wall, the others are insulated unless answered otherwise; else the left wall is hot.
-    fn ask_walls(&self, prompter: &Prompter, initial: f64) -> Result<[WallOverTime; 4], CliError> {
-        let given = self.given_walls().into_iter().any(Option::is_some);
-        let or_insulated = |value: f64| if given { "insulated".to_string() } else { plain(value) };
-        let (hot, cold) = (or_insulated(initial + HOTTER), or_insulated(initial));
-        let read = prompter
-            .within(parse_wall, |wall| ranges::wall(wall, |value| ranges::temperature("wall", value)));
-        let left = prompter.value(self.left.clone(), WALL_HELP, "Left wall", &hot, &read)?;
-        let others = [
-            (&self.right, "Right wall", cold.as_str()),
-            (&self.bottom, "Bottom", "insulated"),
-            (&self.top, "Top", "insulated"),
-        ];
-        let mut walls = vec![left];
-        for (given, name, proposal) in others {
-            walls.push(prompter.value(
-                given.clone(),
-                "Values as for the left wall.",
-                name,
-                proposal,
-                &read,
-            )?);
-        }
-        walls.try_into().map_err(|_| CliError::Message("four walls".to_string()))
     }
 
     fn ask_start(&self, prompter: &Prompter, discs: Discs) -> Result<InitialPacking, CliError> {
@@ -290,40 +268,25 @@ impl CommonOptions {
     }
 
     fn ask_compression(&self, prompter: &Prompter) -> Result<Compression, CliError> {
-        let name = prompter.value(
+        prompter.value(
             self.compression,
             "How the grains were compressed: along x alone (horizontal), as 'msdd reference' does when it fills a box for \
              comparison, or equally from all sides (isotropic).",
             "Compression",
             "horizontal",
-            |text| CompressionName::from_str(text, true).map_err(|_| "horizontal, isotropic".to_string()),
-        )?;
-        Ok(match name {
-            CompressionName::Isotropic => Compression::Isotropic,
-            CompressionName::Horizontal => Compression::Horizontal,
-        })
+            choice(&COMPRESSIONS),
+        )
     }
 
-    pub(super) fn ask_mechanics(
-        &self,
-        prompter: &Prompter,
-        usual: MechanicsName,
-    ) -> Result<Mechanics, CliError> {
-        let name = prompter.value(
+    pub(super) fn ask_mechanics(&self, prompter: &Prompter, usual: Mechanics) -> Result<Mechanics, CliError> {
+        prompter.value(
             self.mechanics,
             "Grains that are heated push their neighbours away. With 'equilibrium' they move until all forces are in balance, \
              which agrees with DEM; with 'none' they stay where they are, as in the paper.",
             "Mechanics",
-            match usual {
-                MechanicsName::Equilibrium => "equilibrium",
-                MechanicsName::None => "none",
-            },
-            |text| MechanicsName::from_str(text, true).map_err(|_| "equilibrium, none".to_string()),
-        )?;
-        Ok(match name {
-            MechanicsName::Equilibrium => Mechanics::Equilibrium,
-            MechanicsName::None => Mechanics::None,
-        })
+            mechanics_name(usual),
+            choice(&MECHANICS),
+        )
     }
 
     pub(super) fn ask_heat(&self, prompter: &Prompter) -> Result<Option<f64>, CliError> {
@@ -354,7 +317,7 @@ fn parse_start(text: &str) -> Result<InitialPacking, String> {
 /// Summary of the case that will be made, for the terminal.
 pub fn summary(scene: &DiscCase) -> String {
     let [width, height] = scene.size.map(plain);
-    let walls: Vec<String> = msdd_case::scene::WALLS
+    let walls: Vec<String> = WALLS
         .into_iter()
         .zip(&scene.walls)
         .map(|(name, wall)| format!("{name} {}", describe(wall)))

@@ -55,9 +55,16 @@ impl GrainWishes {
         )))
     }
 
-    /// \[m\]
-    fn given_radius(&self) -> Option<f64> {
-        self.mean_radius.or(self.diameter.map(|diameter| 0.5 * diameter))
+    /// The values that are given as options.
+    fn given(&self) -> Values {
+        [
+            self.density,
+            self.young_modulus,
+            self.thermal_conductivity,
+            self.heat_capacity,
+            self.thermal_expansion,
+            self.mean_radius.or(self.diameter.map(|diameter| 0.5 * diameter)),
+        ]
     }
 
     /// The material that was chosen first, one of `named` or a file, the name of the material as changed by the user, and the grains.
@@ -77,14 +84,7 @@ impl GrainWishes {
                 prompter.value(None, &help, "Material", first, read)?
             }
         };
-        let own = base.grains(&Values {
-            density: self.density,
-            young_modulus: self.young_modulus,
-            thermal_conductivity: self.thermal_conductivity,
-            heat_capacity: self.heat_capacity,
-            thermal_expansion: self.thermal_expansion,
-            mean_radius: self.given_radius(),
-        })?;
+        let own = base.grains(&self.given())?;
         let change = prompter.interactive
             && prompter.value(
                 None,
@@ -113,14 +113,6 @@ impl GrainWishes {
 
     /// Asks for the values of the material that are not given as options.
     fn ask_values(&self, prompter: &Prompter, from: Grains) -> Result<Grains, CliError> {
-        let given = [
-            self.density,
-            self.young_modulus,
-            self.thermal_conductivity,
-            self.heat_capacity,
-            self.thermal_expansion,
-            self.given_radius(),
-        ];
         let questions = [
             ("The density of a grain, not of the bed.", "Density [kg/m3]"),
             (
@@ -141,21 +133,12 @@ impl GrainWishes {
         ];
         let names = from.named();
         let mut values = names.map(|(_, value, _)| value);
-        for (k, (given, (help, question))) in given.into_iter().zip(questions).enumerate() {
+        for (k, (given, (help, question))) in self.given().into_iter().zip(questions).enumerate() {
             let (key, proposal, unit) = names[k];
             let read = prompter.within(number, |&value| check_value((key, value, unit)));
             values[k] = prompter.value(given, help, question, &plain(proposal), read)?;
         }
-        let [density, young_modulus, thermal_conductivity, heat_capacity, thermal_expansion, mean_radius] =
-            values;
-        Ok(Grains {
-            density,
-            young_modulus,
-            thermal_conductivity,
-            heat_capacity,
-            thermal_expansion,
-            mean_radius,
-        })
+        Ok(Grains::from(values))
     }
 }
 

@@ -74,8 +74,9 @@ impl Prompter {
     }
 }
 
-fn wrong(question: &str, value: &str, allowed: &str) -> CliError {
-    CliError::Message(format!("{question} = {value}, allowed: {allowed}"))
+/// The error of an answer or an option that is not allowed.
+pub fn wrong(key: &str, value: &str, allowed: &str) -> CliError {
+    CliError::Message(format!("{key} = {value}, allowed: {allowed}"))
 }
 
 /// A temperature \[K\], with or without a unit.

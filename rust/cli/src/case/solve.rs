@@ -14,7 +14,7 @@ use msdd_autotune::settings::{Level, Settings};
 use msdd_autotune::trial::{self, Outcome, Purpose};
 use msdd_autotune::user_case::{ACCURACIES, UserCase};
 use msdd_autotune::{ChoiceError, Missed};
-use msdd_case::numbers::{plain, rounded};
+use msdd_case::numbers::short;
 use msdd_files::Lock;
 use msdd_rve::message::number;
 use std::path::{Path, PathBuf};
@@ -256,10 +256,6 @@ fn search_once(scene: &UserCase, wanted: Wanted, lock: &Lock) -> Result<(Found, 
     });
     trial::clear(&folder)?;
     found
-}
-
-fn short(value: f64) -> String {
-    plain(rounded(value, 3))
 }
 
 /// Makes the case of a combination in a folder, and runs it.

@@ -1,26 +1,28 @@
 //! The user's choices for a new case of a bed of spheres: options in addition to those of all beds, and questions.
 
-use super::common_options::{CommonOptions, HOTTER, MechanicsName, WALL_HELP, coldest};
-use super::prompts::{Prompter, number, temperature};
+use super::common_options::{CommonOptions, HOTTER, WALL_HELP, coldest};
+use super::prompts::{Prompter, number, temperature, wrong};
 use crate::error::CliError;
-use clap::{Args, ValueEnum};
+use crate::named::{choice, parser};
+use clap::Args;
 use msdd_beds::case::{BedCase, End, Flow, GasKeys, Lid, RecordKeys, Shell, SolverKeys, Time, Vessel};
 use msdd_beds::named_gases::GasName;
 use msdd_beds::property::Property;
 use msdd_beds::schedule::Schedule;
 use msdd_case::CaseError;
 use msdd_case::material::OF_SPHERES;
-use msdd_case::numbers::{plain, rounded};
+use msdd_case::numbers::{plain, rounded, short};
 use msdd_case::ranges;
 use msdd_case::scene::{Mechanics, parse_sides, parse_wall};
 use msdd_case::spheres::material::Spheres;
 use msdd_case::spheres::scene::{
-    BED_HAS, GRAVITY, SphereCase, check_porosity, check_pressure, heated, usual_porosity,
+    BED_HAS, GRAVITY, Lid as Top, SphereCase, check_porosity, check_pressure, heated, usual_porosity,
 };
 use msdd_case::spheres::shape::Shape;
 use msdd_case::spheres::wall::{self, WallMaterial};
-use msdd_case::values::describe;
+use msdd_case::values::{describe, when};
 use msdd_case::walls::WallOverTime;
+use serde::Deserialize;
 use std::f64::consts::PI;
 
 /// Proposed pressure on the top [Pa].
@@ -30,12 +32,15 @@ const GAS_PRESSURE: f64 = 101_300.0;
 /// Proposed lengths of a bed in diameters of a sphere: width, depth and height of a box, radius and height of a cylinder.
 const BOX: [f64; 3] = [40.0, 15.0, 15.0];
 const CYLINDER: [f64; 2] = [15.0, 60.0];
+const SHAPES: [&str; 2] = ["box", "cylinder"];
+const GASES: [&str; 5] = ["air", "nitrogen", "helium", "argon", "vacuum"];
+const TOPS: [&str; 2] = ["presses", "stays"];
 
 #[derive(Args)]
 #[command(next_help_heading = "Spheres (with --spheres)")]
 pub struct SphereOptions {
     /// Shape of the bed. Default: cylinder if --radius, --height or --side is given, else box.
-    #[arg(long, value_enum, requires = "spheres")]
+    #[arg(long, value_parser = parser::<ShapeName>(&SHAPES), requires = "spheres")]
     shape: Option<ShapeName>,
     /// Radius of the cylinder [m]. Allowed: four radii of a sphere to 1e6. Default: a proposal.
     #[arg(long, value_name = "M", requires = "spheres", conflicts_with = "size")]
@@ -72,7 +77,7 @@ pub struct SphereOptions {
     size_spread: Option<f64>,
     /// Gas between the spheres, which must conduct less than they do. Allowed: `air`, `nitrogen`, `helium`, `argon`,
     /// `vacuum`. Default: `air`.
-    #[arg(long, value_name = "NAME", value_parser = parse_gas, requires = "spheres")]
+    #[arg(long, value_name = "NAME", value_parser = choice::<GasName>(&GASES), requires = "spheres")]
     gas: Option<GasName>,
     /// Pressure of the gas [Pa]. Allowed: 1e-3 to 1e9. Default: 1.013e5.
     #[arg(long, value_name = "PA", requires = "spheres")]
@@ -85,11 +90,11 @@ pub struct SphereOptions {
     #[arg(long, value_name = "K", value_parser = temperature, requires = "flow")]
     flow_temperature: Option<f64>,
     /// Where the gas flows in. Default: `top`.
-    #[arg(long, value_enum, requires = "flow")]
-    flow_from: Option<FlowEnd>,
+    #[arg(long, value_parser = parser::<End>(&["top", "bottom"]), requires = "flow")]
+    flow_from: Option<End>,
     /// Top wall: constant load (`presses`: a stiff plate with the initial pressure) or fixed (`stays`). Default: `presses`.
-    #[arg(long, value_enum, requires = "spheres")]
-    lid: Option<LidName>,
+    #[arg(long, value_parser = parser::<Top>(&TOPS), requires = "spheres")]
+    lid: Option<Top>,
     /// The side of the cylinder as a thin elastic vessel: Young's modulus [Pa], thickness [m] and linear thermal expansion
     /// coefficient [1/K], such as `200e9,0.002,1.2e-5` of steel. It is at its initial place at the initial temperature.
     /// Allowed: modulus 1 to 1e15, thickness up to a fifth of the radius, expansion 0 to 0.01. Default: a rigid side.
@@ -113,27 +118,11 @@ pub struct SphereOptions {
     gravity: Option<f64>,
 }
 
-#[derive(Clone, Copy, ValueEnum)]
+#[derive(Clone, Copy, Deserialize)]
+#[serde(rename_all = "lowercase")]
 enum ShapeName {
     Box,
     Cylinder,
-}
-
-#[derive(Clone, Copy, ValueEnum)]
-enum FlowEnd {
-    Top,
-    Bottom,
-}
-
-#[derive(Clone, Copy, PartialEq, ValueEnum)]
-enum LidName {
-    Presses,
-    Stays,
-}
-
-fn parse_gas(text: &str) -> Result<GasName, String> {
-    let names = || GasName::ALL.map(GasName::as_str).join(", ");
-    GasName::ALL.into_iter().find(|gas| gas.as_str() == text).ok_or_else(names)
 }
 
 fn parse_wall_material(text: &str) -> Result<String, String> {
@@ -155,13 +144,6 @@ fn parse_shell(text: &str) -> Result<Shell, String> {
     }
 }
 
-fn choice<T: ValueEnum>(text: &str) -> Result<T, String> {
-    T::from_str(text, true).map_err(|_| {
-        let names = T::value_variants().iter().filter_map(T::to_possible_value);
-        names.map(|value| value.get_name().to_string()).collect::<Vec<_>>().join(", ")
-    })
-}
-
 impl SphereOptions {
     /// The scene, once all questions are answered; `common` are the options of all beds.
     ///
@@ -178,16 +160,17 @@ impl SphereOptions {
         let spheres = spheres.starting_at(initial_temperature);
         let read = prompter.within(parse_wall, |wall| ranges::wall(wall, |value| known("wall", value)));
         let flow = self.given_flow();
-        let walls = ask_walls(prompter, &shape, given, initial_temperature, flow.is_some(), read)?;
+        let kind = [flow.is_some(), shape.name() == "box"];
+        let walls = ask_walls(prompter, shape.walls(), given, initial_temperature, kind, read)?;
         let (porosity, pressure) = ask_start(common, prompter, &spheres)?;
-        let mechanics = common.ask_mechanics(prompter, MechanicsName::Equilibrium)?;
+        let mechanics = common.ask_mechanics(prompter, Mechanics::Equilibrium)?;
         let (lid, wall_friction, gravity) = self.ask_load(prompter, mechanics)?;
         let heat = common.ask_heat(prompter)?.filter(|&value| value != 0.0);
         let (base, radius, height) = match shape {
             Shape::Box([x, y, z]) => (Some([x, y]), None, z),
             Shape::Cylinder { radius, height } => (None, Some(radius), height),
         };
-        let presses = lid == LidName::Presses;
+        let presses = lid == Top::Presses;
         let mut bed = BedCase {
             seed: 1,
             // By the volume of the spheres.
@@ -233,7 +216,9 @@ impl SphereOptions {
             vary: Vec::new(),
         };
         let scene = SphereCase::new(&bed, &material)?;
-        bed.solver.cells = Some(ask_cells(common, prompter, &scene)?);
+        let lengths: Vec<f64> = shape.lengths().iter().map(|(_, length)| *length).collect();
+        let help = "The bed is divided into cells, which should not be smaller than a sphere. More cells resolve more and take longer.";
+        bed.solver.cells = Some(common.ask_cells(prompter, help, &lengths, &scene.cells)?);
         let scene = SphereCase::new(&bed, &material)?;
         bed.time.end = common.ask_end(prompter, scene.proposed_end()?)?;
         Ok(SphereCase::new(&bed, &material)?)
@@ -258,11 +243,10 @@ impl SphereOptions {
             ("poissonRatio", own.poisson_ratio != base.poisson_ratio),
             ("roughness", own.roughness != base.roughness),
             ("hardness", own.hardness != base.hardness),
+            ("emissivity", own.emissivity != base.emissivity),
+            ("sizeSpread", spheres.size_spread > 0.0),
         ];
-        let changed = options.into_iter().filter(|(_, changed)| *changed);
-        let emissivity = (own.emissivity != base.emissivity).then_some("emissivity");
-        let sizes = (spheres.size_spread > 0.0).then_some("sizeSpread");
-        let changed: Vec<&str> = changed.map(|(key, _)| key).chain(emissivity).chain(sizes).collect();
+        let changed: Vec<&str> = options.into_iter().filter(|one| one.1).map(|one| one.0).collect();
         let material = match changed.is_empty() {
             true => material,
             false => format!("{material}; {} of your own", changed.join(", ")),
@@ -284,7 +268,7 @@ impl SphereOptions {
             "The bed fills a box in space, or an upright cylinder, which is computed as a wedge.",
             "Shape (box or cylinder)",
             "box",
-            choice::<ShapeName>,
+            choice(&SHAPES),
         )?;
         let proposed = |diameters: f64| plain(rounded(diameters * diameter, 2));
         let long_enough = |shape: Shape| {
@@ -367,7 +351,7 @@ impl SphereOptions {
             "The gas between the spheres: air, nitrogen, helium, argon or vacuum.",
             "Gas",
             "air",
-            parse_gas,
+            choice(&GASES),
         )?;
         let pressure = match (name, self.gas_pressure) {
             (GasName::Vacuum, None) => GAS_PRESSURE,
@@ -384,12 +368,12 @@ impl SphereOptions {
 
     fn given_flow(&self) -> Option<Flow> {
         let (mass, temperature) = (self.flow?, self.flow_temperature?);
-        let from = if matches!(self.flow_from, Some(FlowEnd::Bottom)) { End::Bottom } else { End::Top };
+        let from = self.flow_from.unwrap_or_default();
         (mass != 0.0).then_some(Flow { mass, temperature, from })
     }
 
     /// What the top does, the friction of walls, and gravity, where spheres move.
-    fn ask_load(&self, prompter: &Prompter, mechanics: Mechanics) -> Result<(LidName, f64, f64), CliError> {
+    fn ask_load(&self, prompter: &Prompter, mechanics: Mechanics) -> Result<(Top, f64, f64), CliError> {
         if mechanics == Mechanics::None {
             let options = [
                 ("--lid", self.lid.is_some()),
@@ -399,7 +383,7 @@ impl SphereOptions {
             if let Some((option, _)) = options.iter().find(|(_, given)| *given) {
                 return Err(wrong(option, "given", "with --mechanics equilibrium, where spheres move"));
             }
-            return Ok((LidName::Presses, 0.0, self.gravity.unwrap_or(0.0)));
+            return Ok((Top::Presses, 0.0, self.gravity.unwrap_or(0.0)));
         }
         let lid = prompter.value(
             self.lid,
@@ -407,7 +391,7 @@ impl SphereOptions {
              pressure rises where the spheres grow.",
             "Top (presses or stays)",
             "presses",
-            choice::<LidName>,
+            choice(&TOPS),
         )?;
         let help = "The coefficient of friction of a sphere on the walls; 0: smooth walls. Friction at the side of a tall bed \
                     carries much of its weight and keeps it from rising as it is heated.";
@@ -422,21 +406,21 @@ impl SphereOptions {
     }
 }
 
-/// Where options gave any wall or a flow, the others are insulated unless answered otherwise; else the first one is hot, and one next to it has
-/// the temperature of the start.
-fn ask_walls(
+/// Where options gave any wall or gas flows, the others are insulated unless answered otherwise; else the first one is hot, and the second one of
+/// a box has the temperature of the start.
+pub(super) fn ask_walls(
     prompter: &Prompter,
-    shape: &Shape,
+    names: &[&str],
     given: Vec<Option<WallOverTime>>,
     initial: f64,
-    flows: bool,
+    [flows, is_box]: [bool; 2],
     read: impl Fn(&str) -> Result<WallOverTime, String>,
 ) -> Result<Vec<WallOverTime>, CliError> {
     let any = flows || given.iter().any(Option::is_some);
-    let walls = shape.walls().iter().zip(given).enumerate().map(|(k, (name, given))| {
+    let walls = names.iter().zip(given).enumerate().map(|(k, (name, given))| {
         let proposal = match k {
             0 if !any => plain(initial + HOTTER),
-            1 if !any && shape.name() == "box" => plain(initial),
+            1 if !any && is_box => plain(initial),
             _ => "insulated".to_string(),
         };
         prompter.value(given, WALL_HELP, &format!("Wall '{name}'"), &proposal, &read)
@@ -463,32 +447,6 @@ fn ask_start(common: &CommonOptions, prompter: &Prompter, spheres: &Spheres) -> 
     Ok((porosity, pressure))
 }
 
-fn ask_cells(
-    common: &CommonOptions,
-    prompter: &Prompter,
-    scene: &SphereCase,
-) -> Result<Vec<usize>, CliError> {
-    let lengths: Vec<f64> = scene.shape.lengths().iter().map(|(_, length)| *length).collect();
-    let given = match *lengths.as_slice() {
-        [x, y, z] => common.given_cells([x, y, z])?.map(Vec::from),
-        [radius, height] => common.given_cells([radius, height])?.map(Vec::from),
-        _ => None,
-    };
-    let proposal = scene.cells.iter().map(ToString::to_string).collect::<Vec<_>>().join("x");
-    let help = "The bed is divided into cells, which should not be smaller than a sphere. More cells resolve more and take longer.";
-    let allowed = || format!("{} numbers with an x between, such as {proposal}", lengths.len());
-    let read = |text: &str| {
-        let cells: Option<Vec<usize>> = text.split('x').map(|part| part.trim().parse().ok()).collect();
-        cells.filter(|cells| cells.len() == lengths.len()).ok_or_else(allowed)
-    };
-    let read = prompter.within(read, |cells: &Vec<usize>| ranges::cells(cells));
-    prompter.value(given, help, "Cells along each direction", &proposal, read)
-}
-
-fn wrong(key: &str, value: &str, allowed: &str) -> CliError {
-    CliError::Message(format!("{key} = {value}, allowed: {allowed}"))
-}
-
 /// Summary of the case that will be made, for the terminal.
 ///
 /// # Errors
@@ -499,11 +457,8 @@ pub fn summary(scene: &SphereCase) -> Result<String, CliError> {
     let walls = scene.shape.walls().iter().zip(&scene.walls);
     let walls: Vec<String> = walls.map(|(name, wall)| format!("{name} {}", describe(wall))).collect();
     let start = scene.start()?;
-    let short = |value: f64| plain(rounded(value, 3));
-    let friction = match scene.wall_friction > 0.0 {
-        true => format!("\nwalls: {}", wall::sentence(scene.wall_friction)),
-        false => String::new(),
-    };
+    let rough = || format!("\nwalls: {}", wall::sentence(scene.wall_friction));
+    let friction = when(scene.wall_friction > 0.0, rough);
     let crushed = scene.spheres.crush_load.map_or(String::new(), |load| {
         let (d, solid) = (2.0 * scene.spheres.radius(), 1.0 - scene.porosity);
         let force = scene.pressure * PI * d * d / (solid * start.coordination);

@@ -1,10 +1,10 @@
 //! `msdd database`.
 
 mod check;
-mod plot;
 mod timing;
 
 use crate::error::CliError;
+use crate::output::write_json;
 use crate::progress::Progress;
 use crate::simd::SimdArgument;
 use clap::{Args, Subcommand};
@@ -29,8 +29,6 @@ pub enum Command {
     Check(check::Arguments),
     /// Write a plan for RVEs around states of a solver's run that were outside of the model's trained range.
     Plan(PlanArguments),
-    /// Draw the inputs with their convex hulls, and K and sigma against porosity.
-    Plot(plot::Arguments),
 }
 
 #[derive(Args)]
@@ -54,9 +52,6 @@ pub struct GenerateArguments {
     /// processes or machines, in the same folder.
     #[arg(long, value_name = "NUMBER/COUNT", default_value_t)]
     shard: Shard,
-    /// Commit of this program, for the provenance; default: the one it was built from.
-    #[arg(long, value_name = "TEXT")]
-    commit: Option<String>,
     /// JSON file to write: how long each part of the work took.
     #[arg(long, value_name = "FILE")]
     timing: Option<PathBuf>,
@@ -110,7 +105,6 @@ pub fn run(command: &Command) -> Result<(), CliError> {
         }
         Command::Check(arguments) => check::run(arguments),
         Command::Plan(arguments) => plan(arguments),
-        Command::Plot(arguments) => plot::run(arguments),
     }
 }
 
@@ -141,11 +135,10 @@ fn make(arguments: &GenerateArguments) -> Result<(), CliError> {
 
 fn make_rows<P: Recipe>(arguments: &GenerateArguments, plan: &P) -> Result<(), CliError> {
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
-    let built = env!("MSDD_COMMIT");
     let run = Run {
         shard: arguments.shard,
         threads: arguments.threads.map_or(cores, |threads| threads as usize),
-        commit: arguments.commit.clone().unwrap_or_else(|| built.to_string()),
+        commit: env!("MSDD_COMMIT").to_string(),
     };
     let start = Instant::now();
     let mut bar = Progress::new("packings", plan.jobs().len() as u64);
@@ -160,7 +153,7 @@ fn make_rows<P: Recipe>(arguments: &GenerateArguments, plan: &P) -> Result<(), C
     bar.finish();
     let timing = timing::Timing::new(&made, run.threads, start.elapsed().as_secs_f64());
     if let Some(path) = &arguments.timing {
-        timing.write(path)?;
+        write_json(path, &timing)?;
     }
     report(arguments, &timing)
 }
@@ -169,13 +162,11 @@ fn make_rows<P: Recipe>(arguments: &GenerateArguments, plan: &P) -> Result<(), C
 fn report(arguments: &GenerateArguments, timing: &timing::Timing) -> Result<(), CliError> {
     let outcomes: Vec<String> = match grains(&arguments.out)? {
         Grains::Discs => {
-            inspect::<Record>(&arguments.out)?.records.into_iter().map(|record| record.outcome).collect()
+            inspect::<Record>(&arguments.out)?.records.into_iter().map(|row| row.outcome).collect()
         }
-        Grains::Spheres => inspect::<SphereRecord>(&arguments.out)?
-            .records
-            .into_iter()
-            .map(|record| record.outcome)
-            .collect(),
+        Grains::Spheres => {
+            inspect::<SphereRecord>(&arguments.out)?.records.into_iter().map(|row| row.outcome).collect()
+        }
     };
     let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
     for outcome in &outcomes {

@@ -1,13 +1,10 @@
 //! How long the parts of the generation of a database took.
 
-use crate::error::CliError;
-use msdd_files::write;
 use msdd_rve::database::Progress;
 use msdd_rve::stopwatch::Stage;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fmt;
-use std::path::Path;
 
 #[derive(Serialize)]
 pub struct Timing {
@@ -28,12 +25,6 @@ impl Timing {
         stages.insert("storing", made.storing);
         let rows_per_second = made.rows as f64 / seconds.max(f64::MIN_POSITIVE);
         Self { rows: made.rows, seconds, rows_per_second, threads, stages }
-    }
-
-    pub fn write(&self, path: &Path) -> Result<(), CliError> {
-        let json =
-            serde_json::to_string_pretty(self).map_err(|error| CliError::Message(error.to_string()))?;
-        Ok(write(path, json.as_bytes())?)
     }
 }
 

@@ -21,15 +21,6 @@ pub struct Arguments {
     /// Result of `msdd reference run` for the same case.
     #[arg(long, value_name = "FILE")]
     discs: PathBuf,
-    /// Range of temperatures [K], of which errors are given in per cent. Allowed: > 0. Default: the highest minus the lowest
-    /// of all walls and the initial state.
-    #[arg(long, value_name = "K", value_parser = range)]
-    range: Option<f64>,
-}
-
-fn range(text: &str) -> Result<f64, String> {
-    let value = text.parse().ok().filter(|value: &f64| value.is_finite() && *value > 0.0);
-    value.ok_or_else(|| "allowed: a number above 0".to_string())
 }
 
 /// The range of temperatures of the case [K].
@@ -38,7 +29,7 @@ fn range_of(case: &Case) -> Result<f64, CliError> {
     if range > 0.0 {
         return Ok(range);
     }
-    let problem = "all walls and the start have one temperature; give the range by --range";
+    let problem = "all walls and the start have one temperature";
     Err(CliError::Message(format!("{}: {problem}", case.folder.display())))
 }
 
@@ -49,10 +40,7 @@ pub fn run(arguments: &Arguments) -> Result<(), CliError> {
     check_grains(&case, &discs)?;
     check_points(&probe_points(&arguments.case)?, &discs)?;
     let solver = probe_rows(&arguments.case)?;
-    let range = match arguments.range {
-        Some(range) => range,
-        None => range_of(&case)?,
-    };
+    let range = range_of(&case)?;
     if let Some(difference) = InitialMeans::of(&case)?.and_then(|start| start.difference(&discs.model)) {
         outln!("Warning: {difference}");
     }

@@ -5,9 +5,10 @@ mod summary;
 
 use crate::confirm;
 use crate::error::CliError;
+use crate::named::parser;
 use crate::progress::Progress;
-use crate::rve::{read_state, write_state};
-use clap::{Args, Subcommand, ValueEnum};
+use crate::rve::{read_state, write_state, write_vtk};
+use clap::{Args, Subcommand};
 use msdd_case::Case;
 use msdd_case::mesh::Mesh;
 use msdd_case::numbers::rounded;
@@ -19,8 +20,8 @@ use msdd_dem_reference::run::Watch;
 use msdd_dem_reference::start::InitialMeans;
 use msdd_dem_reference::{ReferenceError, RunSpec, Statistics, fields, results::Results, run as run_case};
 use msdd_files::{check_target, write};
+use msdd_rve::Compression;
 use msdd_rve::message::number;
-use msdd_rve::vtk;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
@@ -37,7 +38,7 @@ pub enum Command {
     Run(RunArguments),
     /// Write the initial fields of the solver: averages over windows of the packed model around the cells.
     Fields(FieldsArguments),
-    /// Print a table of results: mean and scatter over the seeds; or the differences of two runs.
+    /// Print a table of results: mean and scatter over the seeds.
     Summary(summary::Arguments),
     /// Print the differences of a run of the solver from DEM in the temperatures at the probes. Results with
     /// grains other than in the case are refused; another start is a warning.
@@ -45,11 +46,7 @@ pub enum Command {
 }
 
 /// How a box is closed.
-#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum Closing {
-    Horizontal,
-    Isotropic,
-}
+const CLOSINGS: [&str; 2] = ["horizontal", "isotropic"];
 
 /// Which packed model.
 #[derive(Args)]
@@ -74,8 +71,8 @@ pub struct ModelArguments {
     #[arg(long, value_name = "RATIO", requires = "state")]
     porosity: Option<f64>,
     /// How the box is closed: along x alone, as in the cases of the paper, or along x and y. Needs --state.
-    #[arg(long, value_enum, default_value_t = Closing::Horizontal, requires = "state")]
-    compression: Closing,
+    #[arg(long, value_parser = parser::<Compression>(&CLOSINGS), default_value = CLOSINGS[0], requires = "state")]
+    compression: Compression,
     /// Number of threads. Default: 2, or 1 on a machine with one core.
     #[arg(long, default_value_t = threads(), value_parser = crate::threads::parser())]
     threads: u32,
@@ -159,7 +156,7 @@ pub fn run(command: &Command) -> Result<(), CliError> {
 
 impl ModelArguments {
     fn filling(&self, case: &Case) -> Result<Filling, CliError> {
-        let usual = Filling { isotropic: self.compression == Closing::Isotropic, ..Filling::of(case) };
+        let usual = Filling { isotropic: self.compression == Compression::Isotropic, ..Filling::of(case) };
         let Some(porosity) = self.porosity else { return Ok(usual) };
         let porosity = sum_porosity(porosity).map_err(ReferenceError::from)?;
         Ok(Filling { porosity, ..usual })
@@ -346,29 +343,15 @@ fn watched(
     let io = |error: CliError| ReferenceError::Watch(error.to_string());
     let mut watch = Watch {
         progress: &mut |time| progress.set(((1e3 * time) as u64).min(total), total, ""),
-        profile: &mut |times, simulation| match &arguments.vtk {
-            Some(folder) => {
-                let times: Vec<f64> = times.iter().map(|time| time * arguments.speed_up).collect();
-                write_vtk(folder, &times, simulation).map_err(io)
-            }
-            None => Ok(()),
+        profile: &mut |times, simulation| {
+            let times: Vec<f64> = times.iter().map(|time| time * arguments.speed_up).collect();
+            write_vtk(arguments.vtk.as_deref(), &times, simulation).map_err(io)
         },
         save: &mut |text| Ok(write(checkpoint, text.as_bytes())?),
     };
     let results = run_case(case, start, spec, checkpoint, &mut watch)?;
     progress.finish();
     Ok(results)
-}
-
-/// Writes the state at the last of `times` [s], and the ParaView series file that lists all of them.
-fn write_vtk(folder: &Path, times: &[f64], simulation: &Simulation) -> Result<(), CliError> {
-    for (name, text) in [("particles", vtk::particles(simulation)), ("contacts", vtk::contacts(simulation))] {
-        let file = |k: usize| format!("{name}_{k:04}.vtp");
-        write(&folder.join(file(times.len() - 1)), text.as_bytes())?;
-        let list: Vec<(f64, String)> = times.iter().enumerate().map(|(k, &time)| (time, file(k))).collect();
-        write(&folder.join(format!("{name}.pvd")), vtk::series(&list).as_bytes())?;
-    }
-    Ok(())
 }
 
 fn report(name: &str, results: &Results, elapsed: Duration) {

@@ -1,47 +1,35 @@
-//! `msdd reference summary`: mean and scatter over packings of different seeds, or the differences of two runs, for example
-//! with different time steps.
+//! `msdd reference summary`: mean and scatter over packings of different seeds.
 
 use crate::error::CliError;
+use crate::output::write_json;
 use clap::Args;
 use msdd_dem_reference::results::{Results, Table};
 use msdd_dem_reference::series::mean_and_deviation;
-use msdd_files::write;
 use serde_json::{Map, Value, json};
 use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 #[derive(Args)]
-#[command(after_help = "Examples:
-  msdd reference summary results/reference/*_seed?.json --out results/reference/summary.json
-  msdd reference summary results/fine/H_seed1.json results/reference/H_seed1.json --differences")]
+#[command(
+    after_help = "Example: msdd reference summary results/reference/*_seed?.json --out results/reference/summary.json"
+)]
 pub struct Arguments {
     /// Result file of `msdd reference run`; may be given several times.
     #[arg(required = true, value_name = "FILE")]
     results: Vec<PathBuf>,
-    /// Print the largest difference of each column of the time series of two results, at the times of the first.
-    #[arg(long)]
-    differences: bool,
     /// JSON file to write the table to.
-    #[arg(long, value_name = "FILE", conflicts_with = "differences")]
+    #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
 }
 
 /// Times of the table, as shares of the end time: 0, 1, 5, 10 and 20 s of a run of 20 s.
 const MOMENTS: [f64; 5] = [0.0, 0.05, 0.25, 0.5, 1.0];
-/// Columns of the profiles whose scatter at the end of the run is printed.
-const PROFILES: [&str; 6] = ["T", "displacement_x", "porosity", "stress_xx", "stress_yy", "stress_xy"];
 /// Columns that are left out of the table, by the start of their names: values of single contacts and single discs.
 const LEFT_OUT: [&str; 2] = ["tangential_force", "mobilised"];
 
 pub fn run(arguments: &Arguments) -> Result<(), CliError> {
     let results: Vec<Results> =
         arguments.results.iter().map(|path| Results::read(path)).collect::<Result<_, _>>()?;
-    if arguments.differences {
-        return match results.as_slice() {
-            [first, second] => differences(first, second),
-            _ => Err(CliError::Message("--differences: give two results".to_string())),
-        };
-    }
     let mut cases: BTreeMap<&str, Vec<&Results>> = BTreeMap::new();
     for result in &results {
         cases.entry(&result.case).or_default().push(result);
@@ -51,11 +39,7 @@ pub fn run(arguments: &Arguments) -> Result<(), CliError> {
         summary.insert(case.to_string(), table(case, &results)?);
     }
     match &arguments.out {
-        Some(path) => {
-            let text =
-                serde_json::to_string_pretty(&summary).map_err(|e| CliError::Message(e.to_string()))?;
-            Ok(write(path, text.as_bytes())?)
-        }
+        Some(path) => write_json(path, &summary),
         None => Ok(()),
     }
 }
@@ -81,8 +65,7 @@ fn table(case: &str, results: &[&Results]) -> Result<Value, CliError> {
         outln!("{name:<24}{}", cells.collect::<String>());
         columns.insert(name.clone(), json!(line.iter().map(|(m, s)| json!([m, s])).collect::<Vec<_>>()));
     }
-    let profiles = profile_scatter(results)?;
-    Ok(json!({"seeds": seeds, "times": moments, "mean_and_deviation": columns, "profiles_at_end": profiles}))
+    Ok(json!({"seeds": seeds, "times": moments, "mean_and_deviation": columns}))
 }
 
 /// The mean with five significant digits, and the deviation with as many decimals.
@@ -90,58 +73,6 @@ fn shown_pair(mean: f64, deviation: f64) -> String {
     let size = mean.abs().max(deviation).max(1e-9).log10().floor() as i32;
     let decimals = usize::try_from(4 - size).unwrap_or(0);
     format!("{mean:.decimals$} +- {deviation:.decimals$}")
-}
-
-/// Prints and returns mean along x and root mean square along x of the deviation over the seeds, of the last profiles.
-fn profile_scatter(results: &[&Results]) -> Result<Value, CliError> {
-    let mut scatter = Map::new();
-    for name in PROFILES {
-        let mut last = Vec::new();
-        for result in results {
-            let times = column_of(result, &result.profiles, "time")?;
-            let values = column_of(result, &result.profiles, name)?;
-            let end = times.last().copied().unwrap_or(0.0);
-            let at_end: Vec<f64> =
-                times.iter().zip(values).filter(|(t, _)| **t == end).map(|(_, v)| v).collect();
-            last.push(at_end);
-        }
-        let bins = last[0].len();
-        let (mut mean, mut square) = (0.0, 0.0);
-        for bin in 0..bins {
-            let values: Vec<f64> = last.iter().filter_map(|values| values.get(bin).copied()).collect();
-            let (m, deviation) = mean_and_deviation(&values);
-            mean += m / bins as f64;
-            square += deviation * deviation / bins as f64;
-        }
-        outln!("{:<24}{:>24}", format!("profile {name}, end"), shown_pair(mean, square.sqrt()));
-        scatter.insert(name.to_string(), json!([mean, square.sqrt()]));
-    }
-    Ok(Value::Object(scatter))
-}
-
-/// Prints the differences of the second result from the first.
-fn differences(first: &Results, second: &Results) -> Result<(), CliError> {
-    let times = column(first, "time")?;
-    let step = |result: &Results| match result.time_step {
-        Some(step) => format!("steps of {step} s"),
-        None => "steps from the bound".to_string(),
-    };
-    outln!("{} with {} against {} with {}", second.case, step(second), first.case, step(first));
-    outln!("{:<22} {:>14} {:>14} {:>14}", "", "largest", "at time [s]", "range of first");
-    for name in first.series.columns.iter().filter(|name| *name != "time") {
-        let (mut largest, mut when) = (0.0f64, 0.0);
-        let values = column(first, name)?;
-        for (&time, value) in times.iter().zip(&values) {
-            let difference = (value_at(second, name, time)? - value).abs();
-            if difference > largest {
-                (largest, when) = (difference, time);
-            }
-        }
-        let range = values.iter().copied().fold(f64::NEG_INFINITY, f64::max)
-            - values.iter().copied().fold(f64::INFINITY, f64::min);
-        outln!("{name:<22} {largest:>14.6} {when:>14} {range:>14.6}");
-    }
-    Ok(())
 }
 
 /// A column of the series.

@@ -1,10 +1,16 @@
 //! Arguments of `msdd rve`.
 
 use crate::error::CliError;
+use crate::named::parser;
 use crate::simd::SimdArgument;
-use clap::{Args, ValueEnum};
+use clap::Args;
 use msdd_beds::sizes::Sizes;
+use msdd_rve::{Boundary, Cut, RegionKind, Relaxation};
 use std::path::PathBuf;
+
+/// Of discs or of spheres.
+const COMPRESSIONS: [&str; 5] = ["isotropic", "horizontal", "intermediate", "uniaxial", "sheared"];
+const RELAXATIONS: [&str; 2] = ["damped", "fire"];
 
 #[derive(Args)]
 #[command(after_help = "Examples:
@@ -23,11 +29,11 @@ pub struct PackArguments {
     pub porosity: Option<f64>,
     /// Directions in which the box closes. Discs: isotropic, horizontal, intermediate, sheared; spheres: isotropic, uniaxial
     /// (along z), sheared (along z, while it opens along x and y).
-    #[arg(long, value_enum, default_value_t = CompressionName::Isotropic)]
-    pub compression: CompressionName,
+    #[arg(long, value_parser = COMPRESSIONS, default_value = COMPRESSIONS[0])]
+    pub compression: String,
     /// Rigid walls, or a periodic box; spheres are always in a periodic one.
-    #[arg(long, value_enum, default_value_t = BoundaryName::Walls)]
-    pub boundary: BoundaryName,
+    #[arg(long, value_parser = parser::<Boundary>(&["walls", "periodic"]), default_value = "walls")]
+    pub boundary: Boundary,
     /// Smallest radius of discs [m]; radii are uniformly distributed between the smallest and the largest. Allowed: 1e-30 to
     /// 1e30.
     #[arg(long, default_value_t = 3e-3)]
@@ -38,8 +44,8 @@ pub struct PackArguments {
     #[command(flatten)]
     pub of_spheres: OfSpheres,
     /// How equilibrium is found: by the damped motion of the grains, or by the minimiser FIRE, which is several times as fast.
-    #[arg(long, value_enum, default_value_t = RelaxationName::Damped)]
-    pub relaxation: RelaxationName,
+    #[arg(long, value_parser = parser::<Relaxation>(&RELAXATIONS), default_value = RELAXATIONS[0])]
+    pub relaxation: Relaxation,
     /// State file (JSON) to write. If the run fails, the last good state is written to FILE.last-good.json instead.
     #[arg(long, value_name = "FILE")]
     pub out: PathBuf,
@@ -90,20 +96,14 @@ pub struct ExpandArguments {
     /// Default: 0.
     #[arg(long, value_delimiter = ',', allow_negative_numbers = true)]
     pub yz: Vec<f64>,
-    /// Of discs: when the walls move, displace all grains with the mean strain of the box; else only the walls push them.
-    #[arg(long)]
-    pub affine: bool,
     /// Of discs: rate of the strain that changes most [1/s]. Allowed: 1e-6 to 100 for grains like the paper's. Default: 0.1
     /// when contacts close, 0.02 when they open.
     #[arg(long)]
     pub rate: Option<f64>,
-    /// Of discs: contact stiffness of the walls over E r. Allowed: 1e-30 to 1e30. Default: from the state.
-    #[arg(long)]
-    pub wall_stiffness: Option<f64>,
     /// Of discs: how equilibrium is found, by the damped motion of the grains, or by the minimiser FIRE, which is several
     /// times as fast.
-    #[arg(long, value_enum, default_value_t = RelaxationName::Damped)]
-    pub relaxation: RelaxationName,
+    #[arg(long, value_parser = parser::<Relaxation>(&RELAXATIONS), default_value = RELAXATIONS[0])]
+    pub relaxation: Relaxation,
     /// State file (JSON) to write: the state at the last stop. If the run fails, the last good state is written to
     /// FILE.last-good.json instead.
     #[arg(long, value_name = "FILE")]
@@ -122,45 +122,11 @@ pub struct HomogeniseArguments {
     pub state: PathBuf,
     /// Averaging region: hull of the inner discs, the box without a margin of 0.8 mean radii, or the whole box. A periodic
     /// box is always averaged as a whole.
-    #[arg(long, value_enum, default_value_t = RegionName::Inset)]
-    pub region: RegionName,
+    #[arg(long, value_parser = parser::<RegionKind>(&["hull", "inset", "cell"]), default_value = "inset")]
+    pub region: RegionKind,
     /// Whether contacts that cross the border of the region count with their share inside of it, or in full.
-    #[arg(long, value_enum, default_value_t = CutName::Clip)]
-    pub cut: CutName,
-}
-
-#[derive(Clone, Copy, ValueEnum)]
-pub enum CompressionName {
-    Isotropic,
-    Horizontal,
-    Intermediate,
-    Uniaxial,
-    Sheared,
-}
-
-#[derive(Clone, Copy, ValueEnum)]
-pub enum BoundaryName {
-    Walls,
-    Periodic,
-}
-
-#[derive(Clone, Copy, ValueEnum)]
-pub enum RegionName {
-    Hull,
-    Inset,
-    Cell,
-}
-
-#[derive(Clone, Copy, ValueEnum)]
-pub enum CutName {
-    Clip,
-    Whole,
-}
-
-#[derive(Clone, Copy, ValueEnum)]
-pub enum RelaxationName {
-    Damped,
-    Fire,
+    #[arg(long, value_parser = parser::<Cut>(&["clip", "whole"]), default_value = "clip")]
+    pub cut: Cut,
 }
 
 /// What only spheres have.

@@ -3,19 +3,15 @@
 mod arguments;
 mod spheres;
 
-use crate::output::print_json;
-use arguments::{
-    BoundaryName, CompressionName, CutName, ExpandArguments, HomogeniseArguments, PackArguments, RegionName,
-    RelaxationName, strains,
-};
-
 use crate::error::CliError;
+use crate::named;
+use crate::output::print_json;
+use arguments::{ExpandArguments, HomogeniseArguments, PackArguments, strains};
 use clap::Subcommand;
 use msdd_files::{check_target, read_text, write};
 use msdd_rve::{
-    Averages, Boundary, Compression, Cut, Material, PackingSpec, Preparation, Protocol, RegionKind,
-    Relaxation, RveError, Settled, Simulation, Strains, follow, homogenise_in, last_good, pack_watched,
-    region, state, unbalanced_force, vtk,
+    Averages, Material, PackingSpec, Preparation, Protocol, RegionKind, RveError, Settled, Simulation,
+    Strains, follow, homogenise_in, last_good, pack_watched, region, state, unbalanced_force, vtk,
 };
 use serde_json::json;
 use std::path::Path;
@@ -31,15 +27,6 @@ pub enum Command {
     Homogenise(HomogeniseArguments),
     /// Draw the grains of a state and the forces between them as SVG, alone or next to a field of the solver.
     Draw(crate::draw::Arguments),
-}
-
-impl From<RelaxationName> for Relaxation {
-    fn from(name: RelaxationName) -> Self {
-        match name {
-            RelaxationName::Damped => Self::Damped,
-            RelaxationName::Fire => Self::Fire,
-        }
-    }
 }
 
 pub fn run(command: &Command) -> Result<(), CliError> {
@@ -101,29 +88,19 @@ fn pack_one(arguments: &PackArguments) -> Result<(), CliError> {
         discs: arguments.discs,
         seed: arguments.seed,
         porosity,
-        compression: match arguments.compression {
-            CompressionName::Isotropic => Compression::Isotropic,
-            CompressionName::Horizontal => Compression::Horizontal,
-            CompressionName::Intermediate => Compression::Intermediate,
-            CompressionName::Sheared => Compression::Sheared,
-            CompressionName::Uniaxial => {
-                let allowed = "isotropic, horizontal, intermediate, sheared; uniaxial is for spheres";
-                return Err(CliError::Message(format!("--compression: uniaxial, allowed: {allowed}")));
-            }
-        },
+        compression: named::read(&arguments.compression).map_err(|_| {
+            let allowed = "isotropic, horizontal, intermediate, sheared; uniaxial is for spheres";
+            CliError::Message(format!("--compression: uniaxial, allowed: {allowed}"))
+        })?,
         radius_min: arguments.radius_min,
         radius_max: arguments.radius_max,
-        relaxation: arguments.relaxation.into(),
-        boundary: match arguments.boundary {
-            BoundaryName::Walls => Boundary::Walls,
-            BoundaryName::Periodic => Boundary::Periodic,
-        },
+        relaxation: arguments.relaxation,
+        boundary: arguments.boundary,
     };
     let packed = pack_watched(&spec, &Preparation::default(), &Material::default())
         .map_err(|stopped| failed(&arguments.out, stopped.error, stopped.last_good.as_deref()))?;
     write_state(&arguments.out, &packed.simulation)?;
-    let mut series = Series::new(arguments.vtk.as_deref());
-    series.add(0.0, &packed.simulation)?;
+    write_vtk(arguments.vtk.as_deref(), &[0.0], &packed.simulation)?;
     report("packed", &packed.settled, &msdd_rve::homogenise(&packed.simulation, RegionKind::default()));
     Ok(())
 }
@@ -138,24 +115,18 @@ fn expand_one(arguments: &ExpandArguments) -> Result<(), CliError> {
     if ![&arguments.zz, &arguments.xz, &arguments.yz].iter().all(|list| list.is_empty()) {
         return Err(CliError::Message("--zz, --xz, --yz: are for boxes of spheres".to_string()));
     }
-    simulation.affine = arguments.affine;
-    if let Some(factor) = arguments.wall_stiffness {
-        simulation.material.wall_stiffness_factor = factor;
-        simulation.material.check().map_err(|error| CliError::Message(error.to_string()))?;
-    }
     let path = path(arguments)?;
-    let mut protocol = Protocol { relaxation: arguments.relaxation.into(), ..Protocol::usual(&simulation) };
+    let mut protocol = Protocol { relaxation: arguments.relaxation, ..Protocol::usual(&simulation) };
     if let Some(rate) = arguments.rate {
         (protocol.expansion_rate, protocol.contraction_rate) = (rate, rate);
     }
-    let mut series = Series::new(arguments.vtk.as_deref());
-    let mut written = series.add(0.0, &simulation);
-    let mut written_stops = 0;
+    let mut times = vec![0.0];
+    let mut written = write_vtk(arguments.vtk.as_deref(), &times, &simulation);
     let ramp = follow(&mut simulation, &path, protocol, |stop, simulation| {
+        times.push(times.len() as f64);
         if written.is_ok() {
-            written = series.add((written_stops + 1) as f64, simulation);
+            written = write_vtk(arguments.vtk.as_deref(), &times, simulation);
         }
-        written_stops += 1;
         let Strains { thermal, xx, yy, xy } = stop.strains;
         let walls = if xx == 0.0 && yy == 0.0 { String::new() } else { format!(", walls {xx:+} {yy:+}") };
         let shear = if xy == 0.0 { String::new() } else { format!(", shear {xy:+}") };
@@ -196,16 +167,8 @@ fn homogenise_one(arguments: &HomogeniseArguments) -> Result<(), CliError> {
         Assembly::Discs(simulation) => simulation,
         Assembly::Spheres(simulation) => return spheres::homogenise(&simulation),
     };
-    let kind = match arguments.region {
-        RegionName::Hull => RegionKind::Hull,
-        RegionName::Inset => RegionKind::Inset,
-        RegionName::Cell => RegionKind::Cell,
-    };
-    let cut = match arguments.cut {
-        CutName::Clip => Cut::Clip,
-        CutName::Whole => Cut::Whole,
-    };
-    let averages = homogenise_in(&simulation, &region::region(&simulation, kind), cut);
+    let region = region::region(&simulation, arguments.region);
+    let averages = homogenise_in(&simulation, &region, arguments.cut);
     let json = as_json(&averages, unbalanced_force(&simulation));
     print_json(&json)
 }
@@ -232,30 +195,14 @@ fn as_json(a: &Averages, unbalanced: f64) -> serde_json::Value {
     })
 }
 
-/// Writes a ParaView time series to a folder; without a folder, it writes nothing.
-struct Series<'a> {
-    folder: Option<&'a Path>,
-    particles: Vec<(f64, String)>,
-    contacts: Vec<(f64, String)>,
-}
-
-impl<'a> Series<'a> {
-    fn new(folder: Option<&'a Path>) -> Self {
-        Self { folder, particles: Vec::new(), contacts: Vec::new() }
+/// Writes the state at the last of `times` \[s\], and the ParaView series file that lists all of them; without a folder, it writes nothing.
+pub fn write_vtk(folder: Option<&Path>, times: &[f64], simulation: &Simulation) -> Result<(), CliError> {
+    let Some(folder) = folder else { return Ok(()) };
+    for (name, text) in [("particles", vtk::particles(simulation)), ("contacts", vtk::contacts(simulation))] {
+        let file = |k: usize| format!("{name}_{k:04}.vtp");
+        write(&folder.join(file(times.len() - 1)), text.as_bytes())?;
+        let list: Vec<(f64, String)> = times.iter().enumerate().map(|(k, &time)| (time, file(k))).collect();
+        write(&folder.join(format!("{name}.pvd")), vtk::series(&list).as_bytes())?;
     }
-
-    fn add(&mut self, time: f64, simulation: &Simulation) -> Result<(), CliError> {
-        let Some(folder) = self.folder else { return Ok(()) };
-        let number = self.particles.len();
-        for (name, text, list) in [
-            ("particles", vtk::particles(simulation), &mut self.particles),
-            ("contacts", vtk::contacts(simulation), &mut self.contacts),
-        ] {
-            let file = format!("{name}_{number:04}.vtp");
-            write(&folder.join(&file), text.as_bytes())?;
-            list.push((time, file));
-            write(&folder.join(format!("{name}.pvd")), vtk::series(list).as_bytes())?;
-        }
-        Ok(())
-    }
+    Ok(())
 }

@@ -1,11 +1,13 @@
 //! `msdd rve` with boxes of spheres.
 
-use super::arguments::{CompressionName, ExpandArguments, PackArguments, RelaxationName, strains};
+use super::arguments::{ExpandArguments, PackArguments, strains};
 use crate::error::CliError;
+use crate::named;
 use crate::output::print_json;
 use msdd_beds::sizes::Moments;
 use msdd_beds::vtk;
 use msdd_files::{check_target, write};
+use msdd_rve::Relaxation;
 use msdd_rve::database::spheres::SphereCompression;
 use msdd_rve::last_good::{self, LastGoodError};
 use msdd_rve::spheres::{Averages, Preparation, Rest, Strain, advance, averages, prepare, state};
@@ -17,15 +19,9 @@ use std::path::{Path, PathBuf};
 const NEAR: [f64; 2] = [0.8, 1.25];
 
 pub fn pack(arguments: &PackArguments, count: usize) -> Result<(), CliError> {
-    let compression = match arguments.compression {
-        CompressionName::Isotropic => SphereCompression::Isotropic,
-        CompressionName::Uniaxial => SphereCompression::Uniaxial,
-        CompressionName::Sheared => SphereCompression::Sheared,
-        CompressionName::Horizontal | CompressionName::Intermediate => {
-            let allowed = "isotropic, uniaxial, sheared for spheres";
-            return Err(CliError::Message(format!("--compression: allowed: {allowed}")));
-        }
-    };
+    let compression: SphereCompression = named::read(&arguments.compression).map_err(|_| {
+        CliError::Message("--compression: allowed: isotropic, uniaxial, sheared for spheres".to_string())
+    })?;
     let of = &arguments.of_spheres;
     let preparation = Preparation {
         spheres: count,
@@ -59,12 +55,8 @@ pub fn pack(arguments: &PackArguments, count: usize) -> Result<(), CliError> {
 
 pub fn expand(arguments: &ExpandArguments, mut simulation: Simulation) -> Result<(), CliError> {
     check_target(&arguments.out)?;
-    let only_discs = [
-        ("affine", arguments.affine),
-        ("rate", arguments.rate.is_some()),
-        ("wall-stiffness", arguments.wall_stiffness.is_some()),
-        ("relaxation fire", matches!(arguments.relaxation, RelaxationName::Fire)),
-    ];
+    let only_discs =
+        [("rate", arguments.rate.is_some()), ("relaxation fire", arguments.relaxation == Relaxation::Fire)];
     if let Some((name, _)) = only_discs.into_iter().find(|(_, given)| *given) {
         return Err(CliError::Message(format!("--{name}: is for discs")));
     }

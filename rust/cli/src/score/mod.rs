@@ -3,9 +3,10 @@
 mod plot;
 
 use crate::error::CliError;
+use crate::output::write_json;
 use crate::spheres;
 use clap::Args;
-use msdd_case::numbers::{plain, rounded};
+use msdd_case::numbers::short;
 use msdd_files::{check_target, write};
 use msdd_rve::database::read_all;
 use msdd_surrogate::SurrogateError;
@@ -65,9 +66,7 @@ pub fn run(arguments: &Arguments) -> Result<(), CliError> {
         print_side_by_side(&scores);
     }
     if let Some(path) = &arguments.json {
-        let text = serde_json::to_string_pretty(&scores)
-            .map_err(|error| CliError::Message(format!("cannot write the scores: {error}")))?;
-        write(path, (text + "\n").as_bytes())?;
+        write_json(path, &scores)?;
     }
     Ok(())
 }
@@ -125,7 +124,6 @@ fn verdict(score: &Score) -> String {
 }
 
 fn friction_of_walls(friction: &WallFriction) -> String {
-    let short = |value: f64| plain(rounded(value, 3));
     format!(
         "Friction of walls: {} at most, half of it at a slip of {} mean radii (scatter {}, {} measured values).",
         short(friction.limit),

@@ -2,8 +2,9 @@
 
 use super::read::{CaseResult, PROBES};
 use crate::error::CliError;
+use msdd_dem_reference::compare::{difference, with_start};
 use msdd_dem_reference::packings::{Reference, SEEDS, pressure_range, temperature_range};
-use msdd_dem_reference::series::{at, largest, statistics};
+use msdd_dem_reference::series::{largest, statistics};
 use msdd_files::read_text;
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -118,21 +119,14 @@ impl Discs {
     pub fn errors(&self, case: &str, run: &CaseResult) -> Option<Errors> {
         let end = self.pressure.last()?;
         let of_probe = |probe: &str| -> Option<f64> {
-            let mut series: Vec<[f64; 2]> =
-                run.probes.get(probe)?.iter().map(|&(t, value)| [t, value]).collect();
+            let series: Vec<[f64; 2]> = run.probes.get(probe)?.iter().map(|&(t, value)| [t, value]).collect();
             if series.last()?[0] < end.0 - 1e-6 {
                 return None;
             }
-            let band = &self.temperature[probe];
-            if series[0][0] > 0.0 {
-                // The solver's probes record no value at time 0, where all grains have the same T: add it.
-                series.insert(0, [0.0, band[0].1]);
-            }
-            let differences: Vec<f64> = band
-                .iter()
-                .map(|&(t, mean, _)| 100.0 * (at(&series, t) - mean) / self.temperature_range)
-                .collect();
-            Some(largest(&differences))
+            let (times, means): (Vec<f64>, Vec<f64>) =
+                self.temperature[probe].iter().map(|&(t, mean, _)| (t, mean)).unzip();
+            let series = with_start(&series, means[0]);
+            Some(largest(&difference(&times, &series, &means, 100.0 / self.temperature_range)))
         };
         Some(Errors {
             temperature: [of_probe(PROBES[0])?, of_probe(PROBES[1])?, of_probe(PROBES[2])?],
@@ -155,7 +149,7 @@ mod tests {
     fn an_offset_is_found_and_the_mean_itself_has_no_error() {
         let discs = Discs::read(&reference(), "HC").unwrap();
         let folder = fixture::Cases::new("offset");
-        let (mut run, _) = crate::summary::read::case(&folder.path().join("HC")).unwrap();
+        let mut run = crate::summary::read::case(&folder.path().join("HC")).unwrap();
         for (probe, offset) in PROBES.into_iter().zip([0.0, 0.0, 2.0]) {
             let series = discs.temperature[probe].iter().skip(1).map(|&(t, mean, _)| (t, mean + offset));
             run.probes.insert(probe, series.collect());

@@ -9,6 +9,7 @@ mod read;
 mod table;
 
 use crate::error::CliError;
+use crate::output::write_json;
 use clap::Args;
 use discs::{Comparison, Discs, Named};
 use msdd_dem_reference::packings::CASES;
@@ -50,14 +51,13 @@ struct Summary<'a> {
 /// Reads, checks and reports the cases. All of them are read before anything is written.
 pub fn run(arguments: &Arguments) -> Result<(), CliError> {
     let (named, model) = read_all(&arguments.cases, arguments.moving.as_deref(), &arguments.reference)?;
-    let json = serde_json::to_string_pretty(&Summary {
+    let summary = Summary {
         cases: named.iter().map(|case| (case.folder, &case.stay)).collect(),
         moving: named.iter().filter_map(|case| Some((case.folder, case.moving.as_ref()?))).collect(),
         comparison: named.iter().map(|case| (case.folder, case.comparison())).collect(),
         model: &model,
-    })
-    .map_err(|error| CliError::Message(error.to_string()))?;
-    write(&arguments.out, json.as_bytes())?;
+    };
+    write_json(&arguments.out, &summary)?;
     write(&arguments.plot, plot::temperature(&named)?.as_bytes())?;
     out!("{}", table::text(&named));
     outln!("model: {}, SHA-256 {}", model.source, model.hash);
@@ -73,8 +73,8 @@ fn read_all(cases: &Path, moving: Option<&Path>, reference: &Path) -> Result<(Ve
     for (folder, name) in CASES {
         let mut run = |parent: &Path| -> Result<CaseResult, CliError> {
             let path = parent.join(folder);
-            let (result, model) = read::case(&path)?;
-            models.push((path, model));
+            let result = read::case(&path)?;
+            models.push((path, result.model.clone()));
             Ok(result)
         };
         let stay = run(cases)?;

@@ -1,7 +1,7 @@
 //! Reads the solver's results in one case folder.
 
 use crate::error::CliError;
-use msdd_case::tables;
+use msdd_case::tables::{self, Table};
 use msdd_files::read_text;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -14,7 +14,7 @@ pub const PROBES: [&str; 3] = ["P1", "P2", "P3"];
 pub type Probes = BTreeMap<&'static str, Vec<(f64, f64)>>;
 
 /// One case.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct CaseResult {
     pub wall_seconds: f64,
     /// Processor time of all processes [s]; absent in files of an older solver.
@@ -26,9 +26,12 @@ pub struct CaseResult {
     /// Absent in files of an older solver.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mechanics: Option<Mechanics>,
+    #[serde(skip_deserializing)]
     pub probes: Probes,
     #[serde(rename = "final")]
     pub end: End,
+    #[serde(skip_serializing)]
+    pub model: Model,
 }
 
 /// Effort and accuracy of the solution for equilibrium of the stress.
@@ -71,49 +74,25 @@ pub struct Model {
     pub library_version: String,
 }
 
-/// The solver's own summary.
-#[derive(Deserialize)]
-struct SolverSummary {
-    wall_seconds: f64,
-    cpu_seconds: Option<f64>,
-    steps: u64,
-    queries: u64,
-    clamped_queries: u64,
-    mechanics: Option<Mechanics>,
-    model: Model,
-    #[serde(rename = "final")]
-    end: End,
-}
-
 /// Reads the results of the case in `folder`.
-pub fn case(folder: &Path) -> Result<(CaseResult, Model), CliError> {
+pub fn case(folder: &Path) -> Result<CaseResult, CliError> {
     let path = folder.join("postProcessing/msddFoam/summary.json");
     if !path.exists() {
         let text = format!("{} is missing: run {}/Allrun first", path.display(), folder.display());
         return Err(CliError::Message(text));
     }
-    let solver = solver_summary(&read_text(&path)?)
+    let mut result = solver_summary(&read_text(&path)?)
         .map_err(|text| CliError::Message(format!("{}: {text}", path.display())))?;
     // The points of OpenFOAM's own function object `probes` move with the mesh, that is with the grains; those of spaceProbes
     // stay where they are.
     let table = tables::read(folder, "probes", None)?;
-    let problem = |text: String| CliError::Message(format!("{}: {text}", table.file.display()));
-    let result = CaseResult {
-        wall_seconds: solver.wall_seconds,
-        cpu_seconds: solver.cpu_seconds,
-        steps: solver.steps,
-        queries: solver.queries,
-        clamped_queries: solver.clamped_queries,
-        mechanics: solver.mechanics,
-        probes: probes(&table.rows).map_err(problem)?,
-        end: solver.end,
-    };
-    Ok((result, solver.model))
+    result.probes = probes(&table)?;
+    Ok(result)
 }
 
-/// Parses the solver's summary. JSON has no NaN, so the summary of a run that ended with one does not parse; the error then
+/// Parses the solver's summary, which has no probes. JSON has no NaN, so the summary of a run that ended with one does not parse; the error then
 /// shows the line with the NaN.
-fn solver_summary(text: &str) -> Result<SolverSummary, String> {
+fn solver_summary(text: &str) -> Result<CaseResult, String> {
     serde_json::from_str(text).map_err(|error| {
         let line = text.lines().nth(error.line().saturating_sub(1)).unwrap_or_default().trim();
         let number = line.rsplit(':').next().unwrap_or_default().trim().trim_end_matches(',');
@@ -128,47 +107,47 @@ fn solver_summary(text: &str) -> Result<SolverSummary, String> {
 const OUTSIDE: f64 = -1e299;
 
 /// Rows of OpenFOAM's probes: time, then one value a probe.
-fn probes(rows: &[String]) -> Result<Probes, String> {
-    let mut columns = Probes::new();
-    for line in rows {
-        let at = || format!("'{}'", line.trim());
-        let values: Result<Vec<f64>, _> = line.split_whitespace().map(str::parse).collect();
-        let values = values
-            .ok()
-            .filter(|values| values.len() == 1 + PROBES.len() && values.iter().all(|v| v.is_finite()))
-            .ok_or_else(|| format!("{}, expected a time and {} finite numbers", at(), PROBES.len()))?;
-        if values.iter().any(|&value| value < OUTSIDE) {
-            return Err(format!("{}: a probe lies outside the mesh", at()));
+fn probes(table: &Table) -> Result<Probes, CliError> {
+    let problem = |text: String| CliError::Message(format!("{}: {text}", table.file.display()));
+    let rows = table.numbers()?;
+    for (row, line) in rows.iter().zip(&table.rows) {
+        if row.len() != 1 + PROBES.len() {
+            return Err(problem(format!("'{line}', expected a time and {} finite numbers", PROBES.len())));
         }
-        for (name, value) in PROBES.into_iter().zip(&values[1..]) {
-            columns.entry(name).or_default().push((values[0], *value));
+        if row.iter().any(|&value| value < OUTSIDE) {
+            return Err(problem(format!("'{line}': a probe lies outside the mesh")));
         }
     }
-    if columns.is_empty() { Err("holds no values".to_string()) } else { Ok(columns) }
+    if rows.is_empty() {
+        return Err(problem("holds no values".to_string()));
+    }
+    let column = |k: usize| rows.iter().map(|row| (row[0], row[k + 1])).collect();
+    Ok(PROBES.into_iter().enumerate().map(|(k, name)| (name, column(k))).collect())
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn rows(text: &str) -> Vec<String> {
-        text.lines().map(str::to_string).collect()
+    fn probes_of(text: &str) -> Result<Probes, CliError> {
+        let rows = text.lines().map(str::to_string).collect();
+        probes(&Table { file: "T".into(), head: Vec::new(), rows })
     }
 
     #[test]
     fn probes_are_read_by_column() {
-        let table = probes(&rows("  0.1  50 51 52\n  0.2 60 61 62\n")).unwrap();
+        let table = probes_of("  0.1  50 51 52\n  0.2 60 61 62\n").unwrap();
         assert_eq!(table["P1"], [(0.1, 50.0), (0.2, 60.0)]);
         assert_eq!(table["P3"], [(0.1, 52.0), (0.2, 62.0)]);
     }
 
     #[test]
     fn bad_probes_are_refused_with_the_line() {
-        let refusal = |text: &str| probes(&rows(text)).unwrap_err();
+        let refusal = |text: &str| probes_of(text).unwrap_err().to_string();
         assert!(refusal("").contains("no values"));
-        assert!(refusal("0.1 50 nan 52\n").starts_with("'0.1 50 nan 52'"));
-        assert!(refusal("0.1 50 51 52\n0.2 60\n").starts_with("'0.2 60'"));
-        assert!(refusal("0.1 50 x 51 52\n").contains("finite numbers"));
+        assert!(refusal("0.1 50 nan 52\n").ends_with("'nan' in '0.1 50 nan 52'"));
+        assert!(refusal("0.1 50 51 52\n0.2 60\n").starts_with("T: '0.2 60', expected a time and 3"));
+        assert!(refusal("0.1 50 x 51 52\n").contains("'x' in "));
         assert!(refusal("0.1 50 -1e+300 52\n").contains("outside the mesh"));
     }
 

@@ -36,13 +36,8 @@ pub fn text(cases: &[Named]) -> String {
 
 fn temperatures(out: &mut String, cases: &[Named]) {
     line(out, &format!("T [K] after {TIME} s at P1, P2, P3 (left, middle, right)"));
-    line(
-        out,
-        &format!(
-            "case    {:<20}    {:<20}    15 000 discs, mean and scatter of 3 packings",
-            WAYS[0], WAYS[1]
-        ),
-    );
+    let ways = WAYS.map(|way| format!("{way:<24}")).concat();
+    line(out, &format!("case    {ways}15 000 discs, mean and scatter of 3 packings"));
     for case in cases {
         let mut row = format!("{:<5}", case.name);
         for run in [Some(&case.stay), case.moving.as_ref()] {
@@ -96,20 +91,18 @@ fn ends(out: &mut String, cases: &[Named]) {
         let pressure = case.discs.pressure.last().map_or(f64::NAN, |row| row.1);
         for (way, run) in runs(case) {
             let end = &run.end;
-            line(
-                out,
-                &format!(
-                    "{:<5} {way:<12} {:>8.4} {:>6.1} {:>6.1} {:>25.3} {:>13.3} {:>7} {:>14}",
-                    case.name,
-                    end.porosity,
-                    end.conductivity_xx,
-                    end.conductivity_yy,
-                    end.pressure / 1e3,
-                    pressure / 1e3,
-                    run.steps,
-                    run.clamped_queries
-                ),
+            let row = format!(
+                "{:<5} {way:<12} {:>8.4} {:>6.1} {:>6.1} {:>25.3} {:>13.3} {:>7} {:>14}",
+                case.name,
+                end.porosity,
+                end.conductivity_xx,
+                end.conductivity_yy,
+                end.pressure / 1e3,
+                pressure / 1e3,
+                run.steps,
+                run.clamped_queries
             );
+            line(out, &row);
         }
     }
 }
@@ -124,20 +117,13 @@ fn sentences(out: &mut String, cases: &[Named]) {
     let scatter = expanding.iter().map(|case| case.discs.scatter).fold(0.0, f64::max);
     line(out, "");
     if let Some(stay) = worst(|case| Some(&case.stay)) {
-        line(
-            out,
-            &format!(
-                "With the paper's scheme, in which grains stay in their cells, T of H, C and HC is within {stay:.1} % of the discs'."
-            ),
-        );
+        let text = "With the paper's scheme, in which grains stay in their cells, T of H, C and HC is within";
+        line(out, &format!("{text} {stay:.1} % of the discs'."));
     }
     if let Some(moving) = worst(|case| case.moving.as_ref()) {
-        line(
-            out,
-            &format!(
-                "With grains that move it is within {moving:.1} %. Packings themselves scatter by up to {scatter:.1} % (one standard deviation)."
-            ),
-        );
+        let packings =
+            format!("Packings themselves scatter by up to {scatter:.1} % (one standard deviation).");
+        line(out, &format!("With grains that move it is within {moving:.1} %. {packings}"));
     }
 }
 

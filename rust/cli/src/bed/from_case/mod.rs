@@ -1,6 +1,5 @@
 //! `msdd bed from-case`: the bed of a case of the solver as a `bed.toml`.
 
-mod functions;
 mod read;
 mod shape;
 mod walls;

@@ -1,6 +1,5 @@
 //! The bed of a case as DEM describes it.
 
-use super::functions::{property, schedule};
 use super::shape::{DIGITS, Extent, Mesh};
 use super::walls::Walls;
 use crate::error::CliError;
@@ -11,8 +10,9 @@ use msdd_beds::named_gases::GasName;
 use msdd_beds::property::Property;
 use msdd_beds::schedule::Schedule;
 use msdd_beds::sizes::{Moments, Sizes};
-use msdd_case::case::{optional, points};
+use msdd_case::case::{GRAIN_KEYS, optional, points};
 use msdd_case::dictionary::{Dictionary, Entry, joined};
+use msdd_case::functions::{property, schedule};
 use msdd_case::numbers::{plain, rounded};
 use std::f64::consts::PI;
 use std::path::Path;
@@ -25,20 +25,8 @@ const EXACT: i32 = 12;
 /// Spheres of which moments are taken while their number is not known.
 const MANY: usize = 1000;
 /// Keys of the properties that have no part in DEM, or are read here.
-const KNOWN: [&str; 12] = [
-    "FoamFile",
-    "surrogate",
-    "density",
-    "youngModulus",
-    "thermalConductivity",
-    "heatCapacity",
-    "thermalExpansion",
-    "meanRadius",
-    "mechanics",
-    "equilibriumCoeffs",
-    "restStress",
-    "bulkDensity",
-];
+const KNOWN: [&str; 6] =
+    ["FoamFile", "surrogate", "mechanics", "equilibriumCoeffs", "restStress", "bulkDensity"];
 
 /// What a case is read from, and what of it is left out.
 pub struct Reader<'a> {
@@ -143,14 +131,6 @@ impl<'a> Reader<'a> {
         Ok(self.properties.dictionary_at("surrogate")?.dictionary_at("spheresCoeffs")?)
     }
 
-    /// A number of a dictionary that may be left out.
-    fn number(of: &Dictionary, key: &str, usual: f64) -> Result<f64, CliError> {
-        match of.get(key) {
-            Some(_) => Ok(of.number(key, f64::is_finite, "a number")?),
-            None => Ok(usual),
-        }
-    }
-
     /// The mean of a field over the cells.
     fn mean(&mut self, name: &str) -> Result<f64, CliError> {
         let field = Dictionary::expanded(&self.folder.join(name))?;
@@ -171,9 +151,9 @@ impl<'a> Reader<'a> {
         };
         let young_modulus = positive("youngModulus")?;
         let (roughness, hardness) =
-            (Self::number(spheres, "roughness", 0.0)?, Self::number(spheres, "hardness", 0.0)?);
-        let expansion = Self::number(of, "thermalExpansion", 0.0)?;
-        let spread = Self::number(spheres, "sizeSpread", 0.0)?;
+            (spheres.number_or("roughness", 0.0)?, spheres.number_or("hardness", 0.0)?);
+        let expansion = of.number_or("thermalExpansion", 0.0)?;
+        let spread = spheres.number_or("sizeSpread", 0.0)?;
         let radiates = !spheres.text("radiation").is_ok_and(|on| on == "off");
         let emissivity = match spheres.get("emissivity") {
             Some(_) if radiates => Some(over_temperature(spheres, "emissivity")?),
@@ -184,9 +164,9 @@ impl<'a> Reader<'a> {
             diameter: rounded(2.0 * positive("meanRadius")?, DIGITS + 1),
             density: positive("density")?,
             young_modulus,
-            poisson_ratio: Self::number(spheres, "poissonRatio", 0.3)?,
+            poisson_ratio: spheres.number_or("poissonRatio", 0.3)?,
             simulated_young_modulus: f64::NAN,
-            friction: Self::number(spheres, "friction", FRICTION)?,
+            friction: spheres.number_or("friction", FRICTION)?,
             wall_friction: 0.0,
             restitution: RESTITUTION,
             conductivity: over_temperature(of, "thermalConductivity")?,
@@ -211,8 +191,8 @@ impl<'a> Reader<'a> {
             known.ok_or_else(|| spheres.refuse("gas", &name, "air, nitrogen, helium, argon, vacuum"))?;
         Ok(GasKeys {
             name: known,
-            pressure: Self::number(spheres, "gasPressure", 101_325.0)?,
-            accommodation: Self::number(spheres, "accommodation", 0.9)?,
+            pressure: spheres.number_or("gasPressure", 101_325.0)?,
+            accommodation: spheres.number_or("accommodation", 0.9)?,
         })
     }
 
@@ -349,7 +329,7 @@ impl<'a> Reader<'a> {
     /// The vertical stress under the top at the start [Pa].
     fn pressure_on_top(&self, mass: f64) -> Result<f64, CliError> {
         if let Ok(rest) = self.properties.dictionary_at("restStress") {
-            return Self::number(rest, "surface", 0.0);
+            return Ok(rest.number_or("surface", 0.0)?);
         }
         let stress = Dictionary::expanded(&self.folder.join("0/stress"))?;
         let vertical = -stress.means::<6>("internalField")?[self.mesh.axis().1];
@@ -408,7 +388,8 @@ impl<'a> Reader<'a> {
         if self.properties.text("mechanics").is_ok_and(|mechanics| mechanics == "none") {
             self.notes.push("mechanics none: the spheres of DEM move all the same".to_string());
         }
-        let others = self.properties.keys().filter(|key| !KNOWN.contains(&key.text.as_str()));
+        let known = |key: &str| KNOWN.contains(&key) || GRAIN_KEYS.contains(&key);
+        let others = self.properties.keys().filter(|key| !known(&key.text));
         let others = others.map(|key| format!("constant/granularProperties: {} is left out", key.text));
         self.notes.extend(others.collect::<Vec<_>>());
         Ok(())

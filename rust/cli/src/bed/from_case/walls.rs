@@ -1,11 +1,11 @@
 //! The walls of a case: what holds its bed.
 
-use super::functions::schedule;
 use super::shape::{DIGITS, Mesh};
 use crate::error::CliError;
 use msdd_beds::case::Shell;
 use msdd_beds::schedule::Schedule;
 use msdd_case::dictionary::{Dictionary, Entry};
+use msdd_case::functions::schedule;
 use msdd_case::numbers::{plain, rounded};
 use msdd_case::spheres::wall::of_spheres;
 
@@ -108,10 +108,7 @@ fn friction(entry: &Dictionary, patch: &str, notes: &mut Vec<String>) -> Result<
 
 fn shell(entry: &Dictionary) -> Result<Shell, CliError> {
     let positive = |key: &str| entry.number(key, |value| value > 0.0 && value.is_finite(), "above 0");
-    let thermal_expansion = match entry.get("thermalExpansion") {
-        Some(_) => entry.number("thermalExpansion", f64::is_finite, "a number")?,
-        None => 0.0,
-    };
+    let thermal_expansion = entry.number_or("thermalExpansion", 0.0)?;
     Ok(Shell {
         young_modulus: positive("youngModulus")?,
         thickness: positive("thickness")?,

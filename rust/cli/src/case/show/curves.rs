@@ -236,21 +236,12 @@ fn flow(run: &Run) -> Result<Vec<Figure>, CliError> {
         let ends = [("outlet", of("outletTemperature")), ("inlet", of("inletTemperature"))];
         let named = ends.into_iter().filter_map(|(name, points)| Some((name.to_string(), points?))).collect();
         figures.extend(over_time("outlet", "T of the gas at the ends", "K", named)?);
-        if let Some(points) = of("pressureDrop") {
-            figures.extend(over_time(
-                "pressure-drop",
-                "pressure drop of the gas",
-                "Pa",
-                vec![(String::new(), points)],
-            )?);
-        }
-        if let Some(points) = of("heat") {
-            figures.extend(over_time(
-                "gas-heat",
-                "heat that the gas gives to the bed",
-                "W",
-                vec![(String::new(), points)],
-            )?);
+        for (name, id, title, unit) in [
+            ("pressureDrop", "pressure-drop", "pressure drop of the gas", "Pa"),
+            ("heat", "gas-heat", "heat that the gas gives to the bed", "W"),
+        ] {
+            let Some(points) = of(name) else { continue };
+            figures.extend(over_time(id, title, unit, vec![(String::new(), points)])?);
         }
     }
     Ok(figures)

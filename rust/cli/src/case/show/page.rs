@@ -124,13 +124,8 @@ fn key_numbers(run: &Run) -> Result<String, CliError> {
         let Some(found) = spread(run, quantity, run.last())? else { continue };
         let (unit, factor) = scaled(found.most.abs().max(found.least.abs()), quantity.unit);
         let value = |value: f64| if unit == "K" { kelvin(value) } else { significant(factor * value, 3) };
-        rows.push(vec![
-            quantity.name.to_string(),
-            unit.to_string(),
-            value(found.least),
-            value(found.mean),
-            value(found.most),
-        ]);
+        let [least, mean, most] = [found.least, found.mean, found.most].map(value);
+        rows.push(vec![quantity.name.to_string(), unit.to_string(), least, mean, most]);
     }
     let time = run.time(run.last());
     Ok(format!("<p>In the bed at {time}; means by volume.</p>\n")
@@ -214,16 +209,11 @@ fn wall_table(run: &Run) -> Result<String, CliError> {
             text(ends(|face| face.shear).map(|ends| ends.1), factor),
         ]
     };
-    let heads = [
-        "'wall".to_string(),
-        "heat into the bed [W]".to_string(),
-        format!("normal stress, least [{unit}]"),
-        "mean".to_string(),
-        "largest".to_string(),
-        format!("shear stress, largest [{unit}]"),
-    ];
+    let [least, largest] =
+        ["normal stress, least", "shear stress, largest"].map(|name| format!("{name} [{unit}]"));
+    let heads = ["'wall", "heat into the bed [W]", &least, "mean", "largest", &largest];
     let rows: Vec<Vec<String>> = found.iter().map(row).collect();
-    Ok(if rows.is_empty() { String::new() } else { table(&heads.each_ref().map(String::as_str), &rows) })
+    Ok(if rows.is_empty() { String::new() } else { table(&heads, &rows) })
 }
 
 fn accuracy_and_warnings(run: &Run) -> String {

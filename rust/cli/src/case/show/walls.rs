@@ -2,6 +2,7 @@
 
 use super::run::Run;
 use crate::error::CliError;
+use msdd_case::mesh::dot;
 use msdd_case::section::is_wall;
 use msdd_draw::map::range_of;
 use std::collections::BTreeMap;
@@ -51,10 +52,6 @@ impl Along {
 }
 
 type Vector = [f64; 3];
-
-fn dot(a: Vector, b: Vector) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
 
 /// A symmetric tensor (xx, xy, xz, yy, yz, zz) times a vector.
 fn times(t: &[f64], n: Vector) -> Vector {

@@ -1,8 +1,8 @@
-//! Functions of time in a case's dictionaries.
+//! Functions of time and of temperature in a case's dictionaries.
 
+use crate::dictionary::Token;
 use msdd_beds::property::Property;
 use msdd_beds::schedule::Schedule;
-use msdd_case::dictionary::Token;
 
 /// The numbers of an entry, and its first word if it has one; `None` for an entry with other words.
 fn numbers(tokens: &[Token]) -> Option<(&str, Vec<f64>)> {
@@ -45,7 +45,7 @@ pub fn property(tokens: &[Token]) -> Option<Property> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use msdd_case::dictionary::Dictionary;
+    use crate::dictionary::Dictionary;
     use std::path::Path;
 
     #[test]
