@@ -64,12 +64,6 @@ pub enum Boundary {
     Periodic,
 }
 
-impl Boundary {
-    fn is_walls(&self) -> bool {
-        *self == Self::Walls
-    }
-}
-
 /// What a specification may have.
 const DISCS: [f64; 2] = [10.0, 1_000_000.0];
 const POROSITIES: [f64; 2] = [0.01, 0.3];
@@ -77,8 +71,7 @@ const RADII: [f64; 2] = [1e-30, 1e30];
 const RADII_ABOVE: &str = "radius_min to 10 radius_min";
 
 /// Specification of a packing.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct PackingSpec {
     /// Number of grains. Allowed: `DISCS`.
     pub discs: usize,
@@ -94,10 +87,8 @@ pub struct PackingSpec {
     /// To this \[m\]. Allowed: `RADII_ABOVE`.
     pub radius_max: f64,
     /// What is around the box.
-    #[serde(default, skip_serializing_if = "Boundary::is_walls")]
     pub boundary: Boundary,
     /// How grains come to rest.
-    #[serde(default)]
     pub relaxation: Relaxation,
 }
 

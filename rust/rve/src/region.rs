@@ -30,8 +30,7 @@ impl RegionKind {
 }
 
 /// How contacts that cross the border of the region count in K and σ.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Cut {
     /// Weighted by the share of the branch that lies inside.
     #[default]

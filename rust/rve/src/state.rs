@@ -28,7 +28,7 @@ struct File {
     /// `msdd-state-1`.
     schema: String,
     /// 2, or absent.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     dimension: Option<u32>,
     /// The grains, as in plans of databases.
     material: Material,
@@ -41,10 +41,10 @@ struct File {
     #[serde(default)]
     contacts: Contacts,
     /// What else is required to go on. Absent in states from other programs: the assembly is then at rest and at zero strain.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     run: Option<Run>,
     /// SHA-256 over the values; take it out after editing a file by hand.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     checksum: Option<String>,
 }
 
@@ -63,7 +63,7 @@ struct Bounds {
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     periodic: bool,
     /// Of a periodic box: way of the top along x; absent: 0 \[m\].
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     shear_offset: Option<f64>,
 }
 
@@ -79,16 +79,12 @@ struct Particles {
     /// Mass \[kg\].
     mass: Vec<f64>,
     /// Velocity along x [m/s].
-    #[serde(default)]
     vx: Option<Vec<f64>>,
     /// Velocity along y [m/s].
-    #[serde(default)]
     vy: Option<Vec<f64>>,
     /// Rotation to the left [rad/s].
-    #[serde(default)]
     angular_velocity: Option<Vec<f64>>,
     /// Temperature \[K\].
-    #[serde(default)]
     temperature: Option<Vec<f64>>,
 }
 
@@ -102,10 +98,10 @@ struct Contacts {
     /// Force on j along t = (−n_y, n_x), n from i to j \[N\].
     tangential_force: Vec<f64>,
     /// Of a periodic box: the contact is with the image of j moved by so many boxes along x; absent: 0.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     shift_x: Option<Vec<i32>>,
     /// The same along y.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     shift_y: Option<Vec<i32>>,
 }
 
@@ -131,7 +127,7 @@ struct Run {
     /// The same along them [m/s].
     wall_tangential_velocity: [f64; 4],
     /// Of a periodic box [1/s].
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     shear_rate: Option<f64>,
 }
 

@@ -67,17 +67,14 @@ pub struct Grains {
     pub thermal_expansion: Option<f64>,
     /// Force on a contact at which a sphere breaks, with which the solver's case compares \[N\]. Allowed: `POSITIVE`. Default: not
     /// known.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub crush_load: Option<f64>,
     /// Standard deviation of the diameters over their mean, both weighted by surface, instead of `sizes`; DEM takes a log-normal
     /// distribution. Allowed: 0 to 0.25. Default: that of `sizes`.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub size_spread: Option<f64>,
     /// Distribution of the diameters, scaled so that their Sauter mean is `diameter`: `uniform` with the least and the largest one (by
     /// number), `normal` or `log_normal` with the standard deviation over the mean (by number, cut at two standard deviations), or
     /// `sieve` with rows of an opening and the share of the mass that passes it; two rows of one opening are spheres of that
     /// diameter. As `sieve=[[1,0],[1,0.3],[2,0.3],[2,1]]`. Allowed: up to 1:4. Default: equal spheres.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub sizes: Option<Sizes>,
 }
 
@@ -101,11 +98,9 @@ pub struct Vessel {
     pub gravity: f64,
     /// Height of the bed, which the solver's case has; DEM finds it from the number of spheres \[m\]. Allowed: `POSITIVE`.
     /// Default: required by `case new`.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub height: Option<f64>,
     /// Porosity at the start, which the solver's case has; DEM finds it. Allowed: 0.2 to 0.7, and the range of the law. Default: 0.4,
     /// less for unequal spheres.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub porosity: Option<f64>,
 }
 

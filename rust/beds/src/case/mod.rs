@@ -38,17 +38,14 @@ pub struct BedCase {
     pub seed: u64,
     /// Heat released in the spheres, over their volume. Tables have to reach the temperatures that it causes, which are not known
     /// beforehand \[W/m³\]. Allowed: `SOURCES`; by the solver also below 0. Default: none.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub heat_source: Option<f64>,
     /// A section: the spheres.
     pub grains: Grains,
     /// A section: what they are poured into.
     pub container: Vessel,
     /// A section: a lid that is pressed on after pouring, and then stays or moves. Default: next to a `plate`, no lid; else required.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub lid: Option<Lid>,
     /// A section: how the container is turned then, with a `plate` alone. Default: not turned.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub turn: Option<Turn>,
     /// A section: the gas between the spheres.
     pub gas: GasKeys,
@@ -57,16 +54,12 @@ pub struct BedCase {
     pub heated: Vec<Heated>,
     /// A section: one wall that is heated, as in an experiment, through its contacts with spheres that keep their size and their
     /// places. Default: walls of `heated`, and spheres that move.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub plate: Option<PlateKeys>,
     /// A section: gas that flows through the bed, for the solver alone. Default: it is at rest.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub flow: Option<Flow>,
     /// A section: the compliance of the side of a cylinder. Default: a rigid side.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub shell: Option<Shell>,
     /// A section: how a bed without sides is strained across, by DEM alone. Default: it keeps its base.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub sides: Option<Sides>,
     /// A section: temperature at the start, intervals, steps.
     pub time: Time,
@@ -77,7 +70,6 @@ pub struct BedCase {
     #[serde(default, skip_serializing_if = "SolverKeys::is_empty")]
     pub solver: SolverKeys,
     /// A section: measurements, with a `plate` alone.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub experiment: Option<ExperimentKeys>,
     /// Blocks `[[vary]]`, with a `plate` alone: with `--vary` all is computed again with one value changed.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]

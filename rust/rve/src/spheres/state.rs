@@ -27,7 +27,7 @@ struct File {
     /// The grains: its entries follow in a table of their own.
     material: Material,
     /// Of a box that repeats itself: its entries follow; absent between walls alone.
-    #[serde(rename = "box", default, skip_serializing_if = "Option::is_none")]
+    #[serde(rename = "box", skip_serializing_if = "Option::is_none")]
     cell: Option<Box>,
     /// List of walls, each with `point`, `surface` (`flat` with `normal`, or `cylinder` with `axis`, `radius`, `growth`, `stretch`) and
     /// `velocity` [m, –, m/s].
@@ -42,7 +42,7 @@ struct File {
     #[serde(default)]
     run: Run,
     /// SHA-256 over the values; take it out after editing a file by hand.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     checksum: Option<String>,
 }
 
@@ -73,28 +73,20 @@ struct Particles {
     /// Mass \[kg\].
     mass: Vec<f64>,
     /// Velocity along x; in a box that deforms, relative to it [m/s].
-    #[serde(default)]
     vx: Option<Vec<f64>>,
     /// Along y [m/s].
-    #[serde(default)]
     vy: Option<Vec<f64>>,
     /// Along z [m/s].
-    #[serde(default)]
     vz: Option<Vec<f64>>,
     /// Angular velocity about x [rad/s].
-    #[serde(default)]
     wx: Option<Vec<f64>>,
     /// About y [rad/s].
-    #[serde(default)]
     wy: Option<Vec<f64>>,
     /// About z [rad/s].
-    #[serde(default)]
     wz: Option<Vec<f64>>,
     /// Temperature \[K\].
-    #[serde(default)]
     temperature: Option<Vec<f64>>,
     /// Radius at strain 0; absent: the radius \[m\].
-    #[serde(default)]
     reference_radius: Option<Vec<f64>>,
 }
 

@@ -49,7 +49,6 @@ pub struct SphereBlock {
     pub spheres: usize,
     /// Distribution of the diameters: `uniform`, `normal`, `log_normal` or `sieve`, as `sizes` of `bed.toml`. Lengths are over their
     /// Sauter mean. The law is not trained on unequal spheres. Default: equal spheres.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub sizes: Option<Sizes>,
     /// Frictions while the box closes: 0 packs densest (0.63 to 0.64 of the space), 0.3 looser (0.58). Not above `friction`: a
     /// packing whose friction falls collapses. Allowed: 0 to `friction`. Default: `friction` alone.
