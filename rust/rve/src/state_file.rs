@@ -1,9 +1,9 @@
 //! What state files of discs ([`crate::state`]) and of spheres ([`crate::spheres::state`]) share: schema, dimension, checksum, and
 //! checks of columns.
 
+use crate::database::provenance::sha256;
 use crate::message::{number, shortened};
 use serde::{Deserialize, Serialize};
-use sha2::{Digest, Sha256};
 
 /// Largest magnitude of a state's numbers, and its inverse the smallest: products of several stay finite.
 pub(crate) const LARGEST: f64 = 1e30;
@@ -44,7 +44,7 @@ pub enum StateError {
 /// SHA-256 of the values of a file without its checksum, independent of the layout of the text; hexadecimal.
 pub(crate) fn digest(file: &impl Serialize) -> Result<String, StateError> {
     let text = serde_json::to_string(file)?;
-    Ok(Sha256::digest(text.as_bytes()).iter().map(|byte| format!("{byte:02x}")).collect())
+    Ok(sha256(text.as_bytes()))
 }
 
 /// Compares the checksum that a file had with that of its values.

@@ -42,7 +42,7 @@ pub mod offenders;
 mod path_rows;
 pub mod paths;
 pub mod plan;
-mod provenance;
+pub(crate) mod provenance;
 mod read;
 mod recipe;
 pub mod record;

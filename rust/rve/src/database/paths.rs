@@ -1,9 +1,9 @@
 //! The paths of `[[paths]]`: the increments of strain that each consists of.
 
 use super::kind::RampName;
+use super::seed::seed_of;
 use crate::Strains;
 use crate::place::Random;
-use sha2::{Digest, Sha256};
 use std::f64::consts::PI;
 
 /// Thermal strains of `equivalence` [-], each applied from the packed state, with either sign.
@@ -104,7 +104,7 @@ fn probes(magnitudes: &[f64]) -> Vec<Strains> {
 /// The increments of a path, each relative to the state before it; of `equivalence`, relative to the packed state. `h`:
 /// size of an increment [-].
 fn steps(path: RampName, seed: u64, h: f64) -> Vec<Strains> {
-    let mut random = Random::new(path_seed(seed, path));
+    let mut random = Random::new(seed_of(seed, path.as_str().as_bytes()));
     let sense = if random.uniform(0.0, 1.0) < 0.5 { 1.0 } else { -1.0 };
     let h_signed = sense * h;
     match path {
@@ -128,13 +128,6 @@ fn steps(path: RampName, seed: u64, h: f64) -> Vec<Strains> {
         RampName::Equivalence => equivalence(),
         _ => Vec::new(),
     }
-}
-
-/// Seed of the random numbers of a path.
-fn path_seed(packing_seed: u64, path: RampName) -> u64 {
-    let mut bytes = packing_seed.to_le_bytes().to_vec();
-    bytes.extend(path.as_str().bytes());
-    Sha256::digest(&bytes).iter().take(8).fold(0u64, |value, &byte| value << 8 | u64::from(byte))
 }
 
 /// Extension along x (0) or y (1).

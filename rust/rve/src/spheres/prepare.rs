@@ -1,8 +1,9 @@
 //! A box of spheres that is packed and then brought to the pressure at which paths begin.
 
-use super::follow::{Rest, UNJAMMED_PRESSURE, advance, pressure, rest};
+use super::follow::{UNJAMMED_PRESSURE, advance, pressure, rest};
 use super::material;
 use super::strain::Strain;
+use crate::Settled;
 use crate::message::number;
 use crate::stopwatch::{self, Stage};
 use msdd_beds::sizes::Sizes;
@@ -57,7 +58,7 @@ pub struct Preparation {
 #[derive(Clone, Debug)]
 pub struct Prepared {
     pub simulation: Simulation,
-    pub rest: Rest,
+    pub rest: Settled,
 }
 
 /// Why a box was not prepared.
@@ -141,8 +142,8 @@ fn bring_to(
     simulation: &mut Simulation,
     target: f64,
     rates: [f64; 3],
-    mut rest: Rest,
-) -> Result<Rest, PrepareError> {
+    mut rest: Settled,
+) -> Result<Settled, PrepareError> {
     let power = |p: f64| libm::pow(p.max(0.0), 2.0 / 3.0);
     let mut scale = 1.0;
     for _ in 0..ATTEMPTS {

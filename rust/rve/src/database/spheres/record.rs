@@ -3,11 +3,11 @@
 use super::kind::{PathName, SphereCompression};
 use super::paths::{Increment, Planned};
 use super::plan::SphereJob;
-use crate::Outcome;
 use crate::database::cell::Value;
 use crate::database::record::FAILED;
 use crate::database::table::{Column, Row, row};
-use crate::spheres::{Averages, Rest, Strain, Tensor};
+use crate::spheres::{Averages, Strain, Tensor};
+use crate::{Outcome, Settled};
 
 #[rustfmt::skip]
 row! {
@@ -137,7 +137,7 @@ impl SphereRecord {
     }
 
     /// The row of the packed state, or of the reason why it was not reached.
-    pub(super) fn packed(job: &SphereJob, state: Result<&(Rest, Averages), &str>) -> Self {
+    pub(super) fn packed(job: &SphereJob, state: Result<&(Settled, Averages), &str>) -> Self {
         let mut record = Self::of(job);
         record.set_state(state);
         record
@@ -148,7 +148,7 @@ impl SphereRecord {
         job: &SphereJob,
         path: PathName,
         planned: &Planned,
-        state: Result<&(Rest, Averages), &str>,
+        state: Result<&(Settled, Averages), &str>,
     ) -> Self {
         let Planned { stop, increment: Increment { from_stop, step, turned }, strain, .. } = *planned;
         let mut record = Self { path, stop, strain: strain.thermal, ..Self::of(job) };
@@ -161,7 +161,7 @@ impl SphereRecord {
         record
     }
 
-    fn set_state(&mut self, state: Result<&(Rest, Averages), &str>) {
+    fn set_state(&mut self, state: Result<&(Settled, Averages), &str>) {
         match state {
             Ok((rest, averages)) => {
                 self.outcome = rest.outcome.as_str().to_string();
