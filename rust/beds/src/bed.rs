@@ -21,7 +21,8 @@ const TURNING: [f64; 3] = [0.2, 6.4e-3, 9.81];
 const FIRST_STEP: f64 = 0.1;
 
 /// The two ways in which a plate is taken.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
+#[serde(rename_all = "lowercase")]
 pub enum PlateKind {
     /// The first layer of grains has the plate's temperature.
     Held,
@@ -29,15 +30,10 @@ pub enum PlateKind {
     Resisting,
 }
 
+crate::named!(PlateKind);
+
 impl PlateKind {
     pub const ALL: [Self; 2] = [Self::Held, Self::Resisting];
-
-    pub fn as_str(self) -> &'static str {
-        match self {
-            Self::Held => "held",
-            Self::Resisting => "resisting",
-        }
-    }
 }
 
 /// A bed at rest before it is heated.

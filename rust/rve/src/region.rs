@@ -18,16 +18,7 @@ pub enum RegionKind {
     Cell,
 }
 
-impl RegionKind {
-    /// The name in records.
-    pub fn as_str(self) -> &'static str {
-        match self {
-            Self::Hull => "hull",
-            Self::Inset => "inset",
-            Self::Cell => "cell",
-        }
-    }
-}
+msdd_beds::named!(RegionKind);
 
 /// How contacts that cross the border of the region count in K and σ.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

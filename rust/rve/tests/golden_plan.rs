@@ -52,7 +52,7 @@ fn other_results_need_another_engine_version() {
     // Of the path every tenth row.
     for r in read(&path).unwrap().records.iter().filter(|r| !r.ramp.is_path() || r.stop % 10 == 0) {
         let (pressure, conductivity) = (r.pressure.unwrap(), r.conductivity_xx.unwrap());
-        found += &format!("{} {} {pressure:.5e} {conductivity:.5e} {}\n", r.ramp.as_str(), r.stop, r.steps);
+        found += &format!("{} {} {pressure:.5e} {conductivity:.5e} {}\n", r.ramp, r.stop, r.steps);
     }
     assert!(
         (ENGINE_VERSION, found.as_str()) == GOLDEN,

@@ -357,7 +357,7 @@ impl Grains {
             let allowed = format!("a gas that is known there; this one: {low} to {high} K");
             return Err((
                 "gas.name".into(),
-                format!("{} at {} K to {} K", keys.name.as_str(), number(range[0]), number(range[1])),
+                format!("{} at {} K to {} K", keys.name, number(range[0]), number(range[1])),
                 allowed,
             ));
         }

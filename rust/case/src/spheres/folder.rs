@@ -234,7 +234,7 @@ fn bed_values(scene: &SphereCase, start: &InitialBed) -> Result<Values, CaseErro
             },
         ),
         ("notFlow", if scene.flow.is_some() { "" } else { ", and flow of the gas" }.to_string()),
-        ("gas", scene.gas.name.as_str().to_string()),
+        ("gas", scene.gas.name.to_string()),
         ("gasPressure", plain(scene.gas.pressure)),
         ("accommodation", plain(scene.gas.accommodation)),
         ("coordination", short(start.coordination)),

@@ -288,7 +288,7 @@ impl SphereCase {
             allow("thermalConductivity", solid, solid >= least, || {
                 format!(
                     "at least the conductivity of the gas ({}), {} W/(m K) at {} K",
-                    gas.as_str(),
+                    gas,
                     number(rounded(least, 3)),
                     number(temperature)
                 )

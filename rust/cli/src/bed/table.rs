@@ -60,7 +60,7 @@ fn differences(out: &mut String, results: &Results) {
     for run in &results.compared {
         for misfit in &run.misfits {
             let place = misfit.distance.map_or("all".to_string(), |d| format!("{:.0}", 1e3 * d));
-            let _ = writeln!(out, "{:<12}{place:>10}   {}", run.heated.kind.as_str(), numbers(misfit));
+            let _ = writeln!(out, "{:<12}{place:>10}   {}", run.heated.kind, numbers(misfit));
         }
     }
     if results.varied.is_empty() {
@@ -69,7 +69,7 @@ fn differences(out: &mut String, results: &Results) {
     let _ = writeln!(out, "with one value changed, all distances [K]");
     for varied in &results.varied {
         let what = format!("{} = {}", varied.key, varied.value);
-        let _ = writeln!(out, "{:<12}{what:<36} {}", varied.kind.as_str(), numbers(&varied.misfit));
+        let _ = writeln!(out, "{:<12}{what:<36} {}", varied.kind, numbers(&varied.misfit));
     }
 }
 

@@ -132,8 +132,8 @@ enum LidName {
 }
 
 fn parse_gas(text: &str) -> Result<GasName, String> {
-    let names = || GasName::ALL.map(GasName::as_str).join(", ");
-    GasName::ALL.into_iter().find(|gas| gas.as_str() == text).ok_or_else(names)
+    let names = || GasName::ALL.map(|gas| gas.to_string()).join(", ");
+    GasName::ALL.into_iter().find(|gas| gas.to_string() == text).ok_or_else(names)
 }
 
 fn parse_wall_material(text: &str) -> Result<String, String> {
@@ -523,7 +523,7 @@ pub fn summary(scene: &SphereCase) -> Result<String, CliError> {
         plain(scene.end_time),
         short(start.conductivity),
         short(start.by_gas),
-        scene.gas.name.as_str(),
+        scene.gas.name,
         short(start.conductivity - start.by_gas - start.by_radiation),
         short(start.by_radiation),
         short(start.coordination),

@@ -3,7 +3,7 @@
 use crate::error::CliError;
 use msdd_files::write;
 use msdd_rve::database::Progress;
-use msdd_rve::stopwatch::Stage;
+use msdd_rve::stopwatch::STAGES;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fmt;
@@ -23,8 +23,7 @@ pub struct Timing {
 
 impl Timing {
     pub fn new(made: &Progress, threads: usize, seconds: f64) -> Self {
-        let mut stages: BTreeMap<&str, f64> =
-            Stage::ALL.iter().map(|s| s.as_str()).zip(made.seconds).collect();
+        let mut stages: BTreeMap<&str, f64> = STAGES.into_iter().zip(made.seconds).collect();
         stages.insert("storing", made.storing);
         let rows_per_second = made.rows as f64 / seconds.max(f64::MIN_POSITIVE);
         Self { rows: made.rows, seconds, rows_per_second, threads, stages }

@@ -145,7 +145,7 @@ fn report(what: &str, rest: &Settled, a: &Averages) {
     outln!(
         "{what}: {} after {} steps, solid fraction {:.4}, coordination {:.3}, pressure/E* {:.4e}, K by contacts/k_s {:.5}, \
          K by gas/k_g {:.3}",
-        rest.outcome.as_str(),
+        rest.outcome,
         rest.steps,
         a.solid_fraction,
         a.coordination,

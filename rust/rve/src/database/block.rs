@@ -226,9 +226,9 @@ impl Block {
         let (usual, more) = kind.ramps();
         let ramps = self.ramps(kind);
         for (k, ramp) in ramps.iter().enumerate() {
-            let problem = |problem| Err(format!("ramps: {}: {problem}", ramp.as_str()));
+            let problem = |problem| Err(format!("ramps: {ramp}: {problem}"));
             if !(usual.contains(ramp) || more.contains(ramp)) {
-                let allowed: Vec<&str> = usual.iter().chain(more).map(|r| r.as_str()).collect();
+                let allowed: Vec<String> = usual.iter().chain(more).map(RampName::to_string).collect();
                 return problem(format!("allowed: {}", allowed.join(", ")));
             }
             if *ramp == RampName::Xy && self.boundary != Boundary::Periodic {
@@ -238,7 +238,7 @@ impl Block {
                 return problem("is named twice".to_string());
             }
             if let Some(first) = ramp.starts_from().filter(|first| !ramps[..k].contains(first)) {
-                return problem(format!("{} must stand before it", first.as_str()));
+                return problem(format!("{first} must stand before it"));
             }
         }
         Ok(())
@@ -258,9 +258,12 @@ impl PathBlock {
             return Err("paths: at least one is needed".into());
         }
         for (k, path) in self.paths.iter().enumerate() {
-            let problem = |problem| Err(format!("paths: {}: {problem}", path.as_str()));
+            let problem = |problem| Err(format!("paths: {path}: {problem}"));
             if !path.is_path() {
-                return problem(format!("allowed: {}", RampName::PATHS.map(RampName::as_str).join(", ")));
+                return problem(format!(
+                    "allowed: {}",
+                    RampName::PATHS.map(|path| path.to_string()).join(", ")
+                ));
             }
             if self.paths[..k].contains(path) {
                 return problem("is named twice".to_string());

@@ -104,7 +104,7 @@ fn probes(magnitudes: &[f64]) -> Vec<Strains> {
 /// The increments of a path, each relative to the state before it; of `equivalence`, relative to the packed state. `h`:
 /// size of an increment [-].
 fn steps(path: RampName, seed: u64, h: f64) -> Vec<Strains> {
-    let mut random = Random::new(seed_of(seed, path.as_str().as_bytes()));
+    let mut random = Random::new(seed_of(seed, path.to_string().as_bytes()));
     let sense = if random.uniform(0.0, 1.0) < 0.5 { 1.0 } else { -1.0 };
     let h_signed = sense * h;
     match path {

@@ -134,7 +134,7 @@ impl Plan {
     fn check(&self) -> Result<(), String> {
         self.material.check().map_err(|error| error.to_string())?;
         for (number, block) in self.blocks() {
-            let within = |problem| format!("[[{}]] {number}: {problem}", block.kind().as_str());
+            let within = |problem| format!("[[{}]] {number}: {problem}", block.kind());
             block.check().map_err(within)?;
         }
         let packings = self.blocks().map(|(_, block)| block.packings().count()).fold(0, u64::saturating_add);

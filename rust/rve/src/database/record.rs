@@ -6,7 +6,7 @@ use super::paths::Increment;
 use super::plan::Job;
 use super::table::{Column, Row, row};
 use crate::slide::Sliding;
-use crate::{Averages, Boundary, Compression, Material, Outcome, RegionKind, Settled, Strains};
+use crate::{Averages, Boundary, Compression, Material, RegionKind, Settled, Strains};
 
 #[rustfmt::skip]
 row! {
@@ -111,7 +111,7 @@ impl Row for Record {
     }
 
     fn name_of(packing: i64, (ramp, stop): &(RampName, i64)) -> String {
-        format!("packing {packing}, ramp {}, stop {stop}", ramp.as_str())
+        format!("packing {packing}, ramp {ramp}, stop {stop}")
     }
 
     fn seed(&self) -> u64 {
@@ -163,7 +163,7 @@ impl Record {
         let mut record = initial.map_or_else(Self::default, Self::from_initial);
         if let Ok(state) = state {
             record.set_averages(&state.averages, material.young_modulus);
-            record.outcome = state.settled.outcome.as_str().to_string();
+            record.outcome = state.settled.outcome.to_string();
             record.steps = state.settled.steps;
             record.unbalanced = Some(state.settled.unbalanced);
             record.wall_friction = state.sliding.map(|sliding| sliding.friction);
@@ -198,7 +198,6 @@ impl Record {
                 Boundary::Walls => RegionKind::default(),
                 Boundary::Periodic => RegionKind::Cell,
             }
-            .as_str()
             .to_string(),
             young_modulus: material.young_modulus,
             ..record
@@ -251,8 +250,13 @@ impl Record {
 
     /// Whether the state was reached and carries load.
     pub fn carries_load(&self) -> bool {
-        self.outcome == Outcome::Settled.as_str() || self.outcome == Outcome::Capped.as_str()
+        has_load(&self.outcome)
     }
+}
+
+/// Whether a row with this outcome has a state under load.
+pub(super) fn has_load(outcome: &str) -> bool {
+    ["settled", "capped"].contains(&outcome)
 }
 
 /// [`Record::outcome`] of a stop that was not reached.

@@ -99,8 +99,8 @@ impl Walk<'_> {
                     let turn = self.job.stops_of(first).last().map_or(0.0, |&(_, strain)| strain);
                     (end, turn)
                 }
-                Some(Err(reason)) => return self.failed(stops, &format!("{}: {reason}", first.as_str())),
-                None => return self.failed(stops, &format!("{} was not made", first.as_str())),
+                Some(Err(reason)) => return self.failed(stops, &format!("{first}: {reason}")),
+                None => return self.failed(stops, &format!("{first} was not made")),
             },
         };
         // The strains of the path count from the state where it starts.

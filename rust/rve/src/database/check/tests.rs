@@ -99,7 +99,7 @@ fn every_broken_law_of_paths_is_found_and_its_row_named() {
         let mut damaged = paths();
         damage(of_path(&mut damaged, ramp, stop));
         let violations = check(&damaged).violations;
-        let row = format!("packing 1, ramp {}, stop {stop}", ramp.as_str());
+        let row = format!("packing 1, ramp {ramp}, stop {stop}");
         assert!(violations.iter().any(|v| v.law == law && v.row == row), "{law}: {violations:?}");
     }
 }

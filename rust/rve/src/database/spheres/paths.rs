@@ -77,7 +77,7 @@ pub fn planned(path: PathName, steps: &Steps) -> Vec<Planned> {
     if path == PathName::Equivalence {
         return equivalence(steps);
     }
-    let mut random = Random::new(seed_of(steps.seed, path.as_str().as_bytes()));
+    let mut random = Random::new(seed_of(steps.seed, path.to_string().as_bytes()));
     let (targets, free_axis) = match path {
         PathName::Mixed => (mixed(&mut random, steps), None),
         path => {

@@ -277,11 +277,11 @@ impl SphereBlock {
         }
         for (k, path) in self.paths.iter().enumerate() {
             if *path == PathName::Packed {
-                let allowed = PathName::ALL.map(PathName::as_str).join(", ");
-                return Err(format!("paths: {}: allowed: {allowed}", path.as_str()));
+                let allowed = PathName::ALL.map(|path| path.to_string()).join(", ");
+                return Err(format!("paths: {path}: allowed: {allowed}"));
             }
             if self.paths[..k].contains(path) {
-                return Err(format!("paths: {}: is named twice", path.as_str()));
+                return Err(format!("paths: {path}: is named twice"));
             }
         }
         Ok(())

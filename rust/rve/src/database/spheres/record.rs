@@ -3,11 +3,11 @@
 use super::kind::{PathName, SphereCompression};
 use super::paths::{Increment, Planned};
 use super::plan::SphereJob;
+use crate::Settled;
 use crate::database::cell::Value;
-use crate::database::record::FAILED;
+use crate::database::record::{FAILED, has_load};
 use crate::database::table::{Column, Row, row};
 use crate::spheres::{Averages, Strain, Tensor};
-use crate::{Outcome, Settled};
 
 #[rustfmt::skip]
 row! {
@@ -98,7 +98,7 @@ impl Row for SphereRecord {
     }
 
     fn name_of(packing: i64, (path, stop): &(PathName, i64)) -> String {
-        format!("packing {packing}, path {}, stop {stop}", path.as_str())
+        format!("packing {packing}, path {path}, stop {stop}")
     }
 
     fn seed(&self) -> u64 {
@@ -164,7 +164,7 @@ impl SphereRecord {
     fn set_state(&mut self, state: Result<&(Settled, Averages), &str>) {
         match state {
             Ok((rest, averages)) => {
-                self.outcome = rest.outcome.as_str().to_string();
+                self.outcome = rest.outcome.to_string();
                 self.steps = rest.steps;
                 self.unbalanced = Some(rest.unbalanced);
                 self.set_averages(averages);
@@ -261,6 +261,6 @@ impl SphereRecord {
 
     /// Whether the state was reached and carries load.
     pub fn carries_load(&self) -> bool {
-        self.outcome == Outcome::Settled.as_str() || self.outcome == Outcome::Capped.as_str()
+        has_load(&self.outcome)
     }
 }
