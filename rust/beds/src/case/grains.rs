@@ -3,13 +3,16 @@
 use crate::effective::{GOOD, MIN_RATIO, closure_error};
 use crate::exchange::{Emissivities, Exchange, OutOfRange, RADIATING, Tracing, exchange};
 use crate::named_gases::GasName;
+use crate::network::Materials;
 use crate::pour::{Container, Pouring, WIDEST};
 use crate::property::{Property, VALUES};
 use crate::rays::Enclosure;
 use crate::settle::longest;
 use crate::sizes::{MAX_SPREAD, Moments, Sizes};
+use crate::solid::{PeakStress, Roughness};
 use msdd_engine::message::{number, range};
-use msdd_spheres::{Material, Simulation, Stiffness};
+use msdd_spheres::law::effective_modulus;
+use msdd_spheres::{Material, Partner, Simulation, Stiffness};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 
@@ -243,6 +246,32 @@ impl Grains {
         walls.iter().for_each(|&(wall, own)| emissivities.walls[wall] = own.unwrap_or(spheres));
         let tracing = Tracing { rays: self.rays.unwrap_or(DEFAULT_RAYS), seed, threads };
         exchange(&Enclosure::new(simulation), &emissivities, &tracing).map(Some)
+    }
+
+    /// What conducts heat in a bed of them with a solid fraction.
+    pub(crate) fn materials(&self, gas: &GasKeys, solid_fraction: f64) -> Materials {
+        Materials {
+            conductivity: self.conductivity.clone(),
+            heat_capacity: self.heat_capacity.clone(),
+            effective_modulus: effective_modulus(self.young_modulus, self.poisson_ratio),
+            roughness: Roughness::given(self.roughness, self.hardness),
+            gas: gas.name,
+            gas_pressure: gas.pressure,
+            accommodation: gas.accommodation,
+            solid_fraction: Some(solid_fraction),
+        }
+    }
+
+    /// The stress in the contacts of a bed against the yield stress, if that is given.
+    pub fn peak_stress(&self, simulation: &Simulation) -> Option<PeakStress> {
+        let mut contacts = Vec::new();
+        simulation.for_each_contact(|contact| {
+            if let Partner::Sphere(_) = contact.i {
+                contacts.push((contact.normal_force, contact.effective_radius));
+            }
+        });
+        let modulus = effective_modulus(self.young_modulus, self.poisson_ratio);
+        self.yield_stress.map(|limit| PeakStress::new(contacts.into_iter(), modulus, limit))
     }
 
     /// Pours the grains into a container under `gravity` \[m/s²\].

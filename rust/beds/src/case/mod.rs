@@ -19,6 +19,7 @@ use grains::REFERENCE_FRACTION;
 use msdd_files::{FileError, read_text};
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
+use std::sync::LazyLock;
 
 /// Name of the file in the folder of a case.
 pub const FILE: &str = "bed.toml";
@@ -86,17 +87,7 @@ const TOLERANCES: [f64; 2] = [0.02, 0.05];
 /// Averages are taken so many diameters from the ends of the bed, and in a cylinder from its side.
 const MARGIN: f64 = 2.0;
 /// What no plate is.
-static NO_PLATE: PlateKeys = PlateKeys {
-    wall: String::new(),
-    temperature: f64::NAN,
-    pressure: None,
-    young_modulus: f64::NAN,
-    poisson_ratio: f64::NAN,
-    conductivity: None,
-    roughness: None,
-    hardness: None,
-    emissivity: None,
-};
+static NO_PLATE: LazyLock<PlateKeys> = LazyLock::new(PlateKeys::default);
 
 /// What is wrong with a description. The messages name file, key, value and what is allowed.
 #[derive(Debug, thiserror::Error)]

@@ -108,7 +108,7 @@ impl Flow {
 }
 
 /// The wall that is heated.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PlateKeys {
     /// The wall that is heated. Allowed: a flat wall that the bed touches; with `pressure`, not the one on which the bed rests.

@@ -132,7 +132,7 @@ fn summary(results: &Results) -> String {
             })
         })
         .collect();
-    let stress = bed.peak_stress(case).map(|stress| {
+    let stress = case.grains.peak_stress(&bed.simulation).map(|stress| {
         json!({
             "largest": stress.largest, "yield_stress": stress.yield_stress, "beyond": stress.beyond,
             "contacts": stress.contacts,

@@ -86,7 +86,7 @@ pub fn warnings(results: &Results) -> Vec<String> {
         let all = results.measured.len();
         format!("{count} of {all} measurements lie outside the time of the run and are left out")
     });
-    let stress = results.bed.peak_stress(&results.case).and_then(|stress| stress.warning());
+    let stress = results.case.grains.peak_stress(&results.bed.simulation).and_then(|stress| stress.warning());
     let lid = results.bed.lid_pressure(&results.case).map(|pressure| {
         format!(
             "the lid, which stopped at a porosity, presses with {pressure:.3e} Pa; that is in proportion to grains.simulated_young_modulus"
