@@ -10,6 +10,7 @@
 #[path = "../../beds/examples/direct/mod.rs"]
 mod direct;
 
+use direct::ray_links::ray_links;
 use direct::voxels::Ball;
 use direct::walk_on_spheres::Room;
 use msdd_beds::conductances::{NEAR, gas_links, near_pairs};
@@ -112,7 +113,8 @@ fn states(spheres: usize, seeds: u64, friction: f64) -> Result<(), Box<dyn Error
             let enclosure = Enclosure::new(&simulation);
             let surfaces = Emissivities { spheres: EMISSIVITY, walls: Vec::new() };
             let traced = exchange(&enclosure, &surfaces, &Tracing { rays: RAYS, seed: 1, threads: 1 })?;
-            let found = conductivity(&traced.links(&enclosure), spheres, volume).ok_or("no solution")?;
+            let found =
+                conductivity(&ray_links(&traced, &enclosure), spheres, volume).ok_or("no solution")?;
             println!(",{:.4}", mean(&found.affine));
         }
     }

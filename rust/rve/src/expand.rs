@@ -1,7 +1,6 @@
 //! Straining of a packed RVE: radii grow or shrink in fixed walls, with stops (section 2.4); or the walls move, too.
 
 use crate::homogenise::{Averages, homogenise};
-use crate::pack::Packed;
 use crate::region::RegionKind;
 use crate::scale::rate_factor;
 use crate::settle::{KEEP_EVERY, Relaxation, Settled, UNBALANCED_LIMIT, settle_to};
@@ -96,18 +95,6 @@ pub struct Ramp {
     pub failure: Option<RveError>,
 }
 
-/// One monotone ramp of thermal strain from the packed state through `stops`: strains relative to the packed state, all
-/// of one sign, growing in magnitude. The RVE relaxes at each stop before it is averaged.
-///
-/// # Errors
-/// [`RveError::Parameter`] for stops that are not allowed. A failure during the ramp is in [`Ramp::failure`].
-pub fn expand(packed: &Packed, stops: &[f64]) -> Result<Ramp, RveError> {
-    check_monotone(stops)?;
-    let path: Vec<Strains> = stops.iter().copied().map(Strains::thermal).collect();
-    let protocol = Protocol::usual(&packed.simulation);
-    follow(&mut packed.simulation.clone(), &path, protocol, |_, _| ())
-}
-
 /// Follows a path of thermal strain and wall strain from stop to stop, with straight lines in between. The simulation
 /// ends at the last stop reached; `visit` is called with it at each stop. After a failure,
 /// [`Simulation::take_last_good`] returns the last good state.
@@ -176,18 +163,6 @@ fn check(path: &[Strains], protocol: Protocol, factor: f64) -> Result<(), RveErr
                 allowed: "-0.2 to 0.2".to_string(),
             });
         }
-    }
-    Ok(())
-}
-
-fn check_monotone(stops: &[f64]) -> Result<(), RveError> {
-    let mut previous = 0.0f64;
-    for &stop in stops {
-        if stop.abs() <= previous.abs() || stop * previous < 0.0 {
-            let allowed = "one sign, growing in magnitude".to_string();
-            return Err(RveError::Parameter { key: "strains", value: format!("{stops:?}"), allowed });
-        }
-        previous = stop;
     }
     Ok(())
 }

@@ -2,7 +2,7 @@
 
 use super::grains::absent;
 use crate::schedule::Schedule;
-use crate::units::{kelvin, kelvin_over_time_or_none};
+use crate::units::{kelvin, kelvin_over_time};
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
@@ -50,7 +50,7 @@ pub struct Heated {
     pub wall: String,
     /// Its temperature over time; each may be a text with a unit, as `"80C"` \[K\]. Allowed: `TEMPERATURES`. Default: this, or `flux`,
     /// or `coefficient` and `outside`.
-    #[serde(default, deserialize_with = "kelvin_over_time_or_none", skip_serializing_if = "Option::is_none")]
+    #[serde(default, deserialize_with = "kelvin_over_time", skip_serializing_if = "Option::is_none")]
     pub temperature: Option<Schedule>,
     /// Heat transfer coefficient to the outside, for the solver alone [W/(m² K)]. Default: none.
     pub coefficient: Option<f64>,

@@ -3,7 +3,7 @@
 use crate::database::provenance::DIGITS;
 use crate::database::recipe::Recipe;
 use crate::database::table::Row;
-use crate::database::{DatabaseError, Dataset, Shard, Violation};
+use crate::database::{DatabaseError, Dataset, Violation};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Relative tolerance of the laws; it covers the rounding of exports to nine digits.
@@ -24,15 +24,13 @@ pub fn within(off: f64, tolerance: f64) -> bool {
     off.abs() <= tolerance
 }
 
-/// The packings of the plan in the provenance, as far as they belong to the shard of this file.
+/// The packings of the plan in the provenance.
 pub fn jobs<P: Recipe>(dataset: &Dataset<P::Row>) -> Result<Vec<P::Job>, DatabaseError> {
     let text = dataset.provenance.get("plan").map_or("", String::as_str);
-    let plan = P::parse(text, "the plan in the provenance")?;
-    let shard: Shard = dataset.provenance.get("shard").and_then(|text| text.parse().ok()).unwrap_or_default();
-    Ok(plan.jobs().into_iter().filter(|job| shard.holds(P::packing(job).0)).collect())
+    Ok(P::parse(text, "the plan in the provenance")?.jobs())
 }
 
-/// Rows and seeds must be those of the plan in the provenance, as far as it belongs to the shard of this file.
+/// Rows and seeds must be those of the plan in the provenance.
 pub fn plan_laws<P: Recipe>(dataset: &Dataset<P::Row>) -> Vec<Violation> {
     let violation = |row: String, law, found: &str| Violation { row, law, found: found.to_string() };
     let jobs = match jobs::<P>(dataset) {
