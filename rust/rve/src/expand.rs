@@ -66,6 +66,11 @@ impl Strains {
         Self { thermal: strain, ..Self::default() }
     }
 
+    /// Thermal, along x, along y, shear.
+    pub fn parts(self) -> [f64; 4] {
+        [self.thermal, self.xx, self.yy, self.xy]
+    }
+
     /// The strains relative to the start after these and then `next`, which is relative to the state in between.
     pub fn then(self, next: Self) -> Self {
         let compound = |a: f64, b: f64| a + b + a * b;

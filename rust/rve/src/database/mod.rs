@@ -29,7 +29,6 @@
 //! | [`check`] | exact laws on every row, statistics, noise floor |
 
 mod block;
-mod cell;
 pub mod check;
 pub mod csv_file;
 pub mod dataset;

@@ -140,8 +140,7 @@ fn along(axis: usize, size: f64) -> Strains {
 
 /// `factor` times the strains. Adding 0 makes 0 of −0, which would be written with its sign.
 fn times(factor: f64, strains: Strains) -> Strains {
-    let [thermal, xx, yy, xy] =
-        [strains.thermal, strains.xx, strains.yy, strains.xy].map(|strain| factor * strain + 0.0);
+    let [thermal, xx, yy, xy] = strains.parts().map(|strain| factor * strain + 0.0);
     Strains { thermal, xx, yy, xy }
 }
 
@@ -185,7 +184,7 @@ fn segments(random: &mut Random, h: f64, thermal: f64) -> Vec<Strains> {
         let parts: [f64; 4] = std::array::from_fn(|_| random.uniform(-1.0, 1.0));
         let direction =
             Strains { thermal: thermal * parts[0] + 0.0, xx: parts[1], yy: parts[2], xy: parts[3] };
-        let [t, xx, yy, xy] = [direction.thermal, direction.xx, direction.yy, direction.xy].map(f64::abs);
+        let [t, xx, yy, xy] = direction.parts().map(f64::abs);
         let largest = t.max(xx).max(yy).max(xy).max(f64::MIN_POSITIVE);
         steps.extend(std::iter::repeat_n(times(h / largest, direction), count));
     }

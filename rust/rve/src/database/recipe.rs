@@ -3,7 +3,7 @@
 use super::plan::Plan;
 use super::provenance::sha256;
 use super::spheres::SpherePlan;
-use super::table::Row;
+use super::table::{Place, Row};
 use super::{DatabaseError, Dataset, Violation};
 
 /// A plan of packings.
@@ -29,7 +29,7 @@ pub trait Recipe: Sized + Sync {
     /// Index of a packing in the plan, and its seed.
     fn packing(job: &Self::Job) -> (i64, u64);
     /// Every row that a packing has, in order.
-    fn places(job: &Self::Job) -> Vec<<Self::Row as Row>::Place>;
+    fn places(job: &Self::Job) -> Vec<Place<Self::Row>>;
     /// A measure of the time that a packing takes; the most expensive are made first.
     fn cost(job: &Self::Job) -> usize;
     /// The rows of a packing.

@@ -1,10 +1,9 @@
 //! One row of the database: one state of one packing.
 
-use super::cell::Value;
 use super::kind::{Kind, RampName};
 use super::paths::Increment;
 use super::plan::Job;
-use super::table::{Column, Row, row};
+use super::table::row;
 use crate::slide::Sliding;
 use crate::{Averages, Boundary, Compression, Material, RegionKind, Settled, Strains};
 
@@ -12,7 +11,7 @@ use crate::{Averages, Boundary, Compression, Material, RegionKind, Settled, Stra
 row! {
     /// One state at one stop of a ramp; every stop of the plan has a row. Averages are absent when the stop was not
     /// reached. Meaning and unit of each field are those of [`COLUMNS`].
-    Record:
+    Record, "3", LATER, ramp: RampName;
     packing: i64, "INTEGER", "-", "index of the packing in the plan";
     kind: Kind, "TEXT", "-", "thermal: radii change in fixed walls; mechanics: walls move; wall_shear: bottom and top slip along the grains; paths: a periodic box follows paths of strain";
     discs: u64, "INTEGER", "-", "discs in the packing";
@@ -85,44 +84,6 @@ row! {
 /// Columns that files of schema 2 do not have; they are empty there.
 const LATER: [&str; 7] = ["from_stop", "step_thermal", "step_xx", "step_yy", "step_xy", "probe", "fabric_xy"];
 
-impl Row for Record {
-    const COLUMNS: &'static [Column] = COLUMNS;
-    const SCHEMA: &'static str = "3";
-    const LATER: &'static [&'static str] = &LATER;
-    type Place = (RampName, i64);
-
-    fn from_cells<'a>(
-        cell: impl Fn(usize) -> Result<Value<'a>, String>,
-    ) -> Result<Self, (&'static str, String)> {
-        Self::of_cells(cell)
-    }
-
-    fn packing(&self) -> i64 {
-        self.packing
-    }
-
-    fn place(&self) -> (RampName, i64) {
-        (self.ramp, self.stop)
-    }
-
-    /// Ramp, then for each ramp the stops outward, those on the negative side first.
-    fn order(&self) -> impl Ord {
-        (self.ramp, self.stop > 0, self.stop.unsigned_abs())
-    }
-
-    fn name_of(packing: i64, (ramp, stop): &(RampName, i64)) -> String {
-        format!("packing {packing}, ramp {ramp}, stop {stop}")
-    }
-
-    fn seed(&self) -> u64 {
-        self.seed
-    }
-
-    fn has_failed(&self) -> bool {
-        self.failure.is_some()
-    }
-}
-
 /// Copies averages into the columns of the same name.
 macro_rules! copy {
     ($from:ident => $to:ident: $($name:ident)*) => {
@@ -173,6 +134,8 @@ impl Record {
             record.outcome = FAILED.to_string();
             record.failure = Some(reason.to_string());
         }
+        let step = place.increment.map(|increment| increment.step.parts());
+        let [step_thermal, step_xx, step_yy, step_xy] = [0, 1, 2, 3].map(|k| step.map(|parts| parts[k]));
         Self {
             packing: job.packing,
             kind: job.kind,
@@ -188,10 +151,10 @@ impl Record {
             strain_yy: place.strains.yy,
             strain_xy: place.strains.xy,
             from_stop: place.increment.map(|increment| increment.from_stop),
-            step_thermal: place.increment.map(|increment| increment.step.thermal),
-            step_xx: place.increment.map(|increment| increment.step.xx),
-            step_yy: place.increment.map(|increment| increment.step.yy),
-            step_xy: place.increment.map(|increment| increment.step.xy),
+            step_thermal,
+            step_xx,
+            step_yy,
+            step_xy,
             probe: place.increment.map(|increment| u64::from(increment.probe)),
             wall_slip: place.slip,
             region: match job.spec.boundary {
@@ -247,16 +210,6 @@ impl Record {
     pub fn strains(&self) -> Strains {
         Strains { thermal: self.strain, xx: self.strain_xx, yy: self.strain_yy, xy: self.strain_xy }
     }
-
-    /// Whether the state was reached and carries load.
-    pub fn carries_load(&self) -> bool {
-        has_load(&self.outcome)
-    }
-}
-
-/// Whether a row with this outcome has a state under load.
-pub(super) fn has_load(outcome: &str) -> bool {
-    ["settled", "capped"].contains(&outcome)
 }
 
 /// [`Record::outcome`] of a stop that was not reached.

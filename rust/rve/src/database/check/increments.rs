@@ -51,13 +51,9 @@ fn planned(jobs: &[Job]) -> Plans {
     plans
 }
 
-fn parts(strains: Strains) -> [f64; 4] {
-    [strains.thermal, strains.xx, strains.yy, strains.xy]
-}
-
 /// Whether all parts agree within the tolerance, relative to each part.
 fn agree(a: Strains, b: Strains, tolerance: f64) -> bool {
-    parts(a).iter().zip(parts(b)).all(|(a, b)| within(a - b, tolerance * b.abs().max(tolerance)))
+    a.parts().iter().zip(b.parts()).all(|(a, b)| within(a - b, tolerance * b.abs().max(tolerance)))
 }
 
 fn row_laws(record: &Record, rows: &Rows, plans: &Plans, tolerance: f64) -> Vec<(&'static str, String)> {
@@ -98,7 +94,7 @@ fn row_laws(record: &Record, rows: &Rows, plans: &Plans, tolerance: f64) -> Vec<
 
 /// Whether `now` is what `from` and then `step` give.
 fn strains_add_up(from: Strains, step: Strains, now: Strains, tolerance: f64) -> bool {
-    let off = parts(from.then(step)).into_iter().zip(parts(now)).map(|(a, b)| a - b);
+    let off = from.then(step).parts().into_iter().zip(now.parts()).map(|(a, b)| a - b);
     off.into_iter().all(|off| within(off, tolerance))
 }
 

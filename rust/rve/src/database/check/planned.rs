@@ -2,7 +2,7 @@
 
 use crate::database::provenance::DIGITS;
 use crate::database::recipe::Recipe;
-use crate::database::table::Row;
+use crate::database::table::{Place, Row};
 use crate::database::{DatabaseError, Dataset, Violation};
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -52,7 +52,7 @@ pub fn plan_laws<P: Recipe>(dataset: &Dataset<P::Row>) -> Vec<Violation> {
             violations.push(violation(record.name(), "the seed is the plan's", &record.seed().to_string()));
         }
     }
-    let name = |(packing, place): &(i64, <P::Row as Row>::Place)| P::Row::name_of(*packing, place);
+    let name = |&(packing, place): &(i64, Place<P::Row>)| P::Row::name_of(packing, place);
     let missing =
         expected.difference(&found).map(|row| violation(name(row), "every row of the plan", "absent"));
     let foreign =
