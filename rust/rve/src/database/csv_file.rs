@@ -120,12 +120,12 @@ pub fn records<R: Row>(path: &Path, text: impl Read, absent: &[&str]) -> Result<
         };
         let check = |(column, field)| checked(column, field).map_err(|problem| value((column.0, problem)));
         columns.iter().copied().zip(&fields).try_for_each(check)?;
-        let row: R = fields.deserialize(Some(&head)).map_err(|error| match error.kind() {
-            csv::ErrorKind::Deserialize { err, .. } => {
-                let column = err.field().and_then(|field| columns.get(field as usize));
-                value((column.map_or("", |column| column.0), shortened(&err.kind().to_string())))
-            }
-            _ => failed(error),
+        let row: R = fields.deserialize(Some(&head)).map_err(|error| {
+            let csv::ErrorKind::Deserialize { err, .. } = error.kind() else { return failed(error) };
+            let unsound =
+                |(column, field): &(&&Column, &[u8])| !(column.5)(&csv::ByteRecord::from(vec![*field]));
+            let column = columns.iter().zip(&fields).find(unsound).map_or("", |(column, _)| column.0);
+            value((column, shortened(&err.kind().to_string())))
         })?;
         // A small compressed file can unpack to the same row a million times, so duplicates end the reading at once.
         if !places.insert((row.packing(), row.place())) {
@@ -185,7 +185,7 @@ fn columns<R: Row>(
 }
 
 /// Refuses a field that has no value of its column's kind; an empty field is an absent value.
-fn checked(Column(_, kind, _, _, needed): &Column, field: &[u8]) -> Result<(), String> {
+fn checked(Column(_, kind, _, _, needed, _): &Column, field: &[u8]) -> Result<(), String> {
     let text = std::str::from_utf8(field);
     let real = || text.ok().and_then(|text| text.parse::<f64>().ok());
     let (allowed, sound) = match *kind {

@@ -4,8 +4,16 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 use std::fmt::{Debug, Display};
 
-/// A column of the database: name, kind (`INTEGER`, `REAL` or `TEXT`), unit, meaning, whether a row has to have a value.
-pub struct Column(pub &'static str, pub &'static str, pub &'static str, pub &'static str, pub bool);
+/// A column of the database: name, kind (`INTEGER`, `REAL` or `TEXT`), unit, meaning, whether a row has to have a value, and whether the
+/// only field of a record is one.
+pub struct Column(
+    pub &'static str,
+    pub &'static str,
+    pub &'static str,
+    pub &'static str,
+    pub bool,
+    pub fn(&csv::ByteRecord) -> bool,
+);
 
 /// The name of a row within its packing: the way through states and the stop on it.
 pub type Place<R> = (<R as Row>::Way, i64);
@@ -26,8 +34,10 @@ pub trait Row: Clone + Default + PartialEq + Debug + Serialize + DeserializeOwne
     fn packing(&self) -> i64;
     fn place(&self) -> Place<Self>;
     fn seed(&self) -> u64;
-    /// Whether the state was not reached.
-    fn has_failed(&self) -> bool;
+    /// How the state came to rest.
+    fn outcome(&self) -> &str;
+    /// Why it was not reached.
+    fn failure(&self) -> Option<&str>;
 
     /// Key by which the rows of a packing are sorted: way, then for each the stops outward, those on the negative side first.
     fn order(&self) -> impl Ord {
@@ -72,6 +82,7 @@ macro_rules! row {
             $unit,
             $meaning,
             !matches!(stringify!($type).as_bytes(), [b'O', b'p', b't', ..]),
+            |field| field.deserialize::<($type,)>(None).is_ok(),
         ),)*];
 
         impl $crate::database::table::Row for $row {
@@ -93,8 +104,12 @@ macro_rules! row {
                 self.seed
             }
 
-            fn has_failed(&self) -> bool {
-                self.failure.is_some()
+            fn outcome(&self) -> &str {
+                &self.outcome
+            }
+
+            fn failure(&self) -> Option<&str> {
+                self.failure.as_deref()
             }
         }
     };
