@@ -2,6 +2,7 @@
 
 use crate::database::provenance::DIGITS;
 use crate::database::recipe::Recipe;
+use crate::database::record::FAILED;
 use crate::database::table::{Place, Row};
 use crate::database::{DatabaseError, Dataset, Violation};
 use std::collections::{BTreeMap, BTreeSet};
@@ -22,6 +23,38 @@ pub fn tolerance<R>(dataset: &Dataset<R>) -> f64 {
 /// Whether |off| is at most the tolerance; false for NaN.
 pub fn within(off: f64, tolerance: f64) -> bool {
     off.abs() <= tolerance
+}
+
+/// Violated laws of a row, each with what was found.
+pub type Found = Vec<(&'static str, String)>;
+
+/// Violations of the laws of a row.
+pub fn named<R: Row>(record: &R, found: Found) -> impl Iterator<Item = Violation> + use<R> {
+    let row = record.name();
+    found.into_iter().map(move |(law, found)| Violation { row: row.clone(), law, found })
+}
+
+/// What a row violates whose state was not reached; none of other rows.
+pub fn failed<R: Row>(record: &R, has_averages: bool) -> Option<Found> {
+    let (outcome, failure) = (record.outcome(), record.failure());
+    if outcome != FAILED && failure.is_none() {
+        return None;
+    }
+    let sound = outcome == FAILED && failure.is_some() && !has_averages;
+    let text = format!("outcome {outcome}, failure {failure:?}");
+    Some(if sound { Vec::new() } else { vec![("a failure has a reason and no averages", text)] })
+}
+
+/// Laws by which a number is 0, with its scale; and laws that hold or do not, with a number to show.
+pub fn found(
+    zeros: &[(&'static str, f64, f64)],
+    holds: &[(&'static str, bool, f64)],
+    tolerance: f64,
+) -> Found {
+    let off = zeros.iter().filter(|(_, off, scale)| !within(*off, 4.0 * tolerance * scale));
+    let off = off.map(|(law, off, _)| (*law, format!("off by {off:.3e}")));
+    let holds = holds.iter().filter(|(_, holds, _)| !holds);
+    off.chain(holds.map(|(law, _, value)| (*law, value.to_string()))).collect()
 }
 
 /// The packings of the plan in the provenance.
