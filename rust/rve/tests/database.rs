@@ -1,8 +1,8 @@
 //! Generation, storage, continuation, shards and export of small databases.
 
 use msdd_rve::database::{
-    DatabaseError, Kind, Plan, RampName, Run, check, export_csv, generate, inspect, read, record::COLUMNS,
-    table::Row,
+    DatabaseError, Kind, Plan, RampName, Recipe, Run, check, export_csv, generate, inspect, read,
+    record::COLUMNS, table::Row,
 };
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};

@@ -1,6 +1,6 @@
 //! Guards the engine version: a change of the results of a plan requires that it be raised.
 
-use msdd_rve::database::{ENGINE_VERSION, Plan, Run, generate, read};
+use msdd_rve::database::{ENGINE_VERSION, Plan, Recipe, Run, generate, read};
 use std::ops::ControlFlow;
 use std::path::Path;
 

@@ -7,7 +7,6 @@
 //! | `block` | the blocks of a plan |
 //! | `table` | columns and schema: what stands in a row |
 //! | `recipe` | what a plan of any grains has to know |
-//! | `discs` | that, for plans of discs |
 //! | [`spheres`] | plan, rows and checks of spheres |
 //! | `grains` | whether a file holds discs or spheres |
 //! | `seed` | seeds of packings |
@@ -32,7 +31,6 @@ mod block;
 pub mod check;
 pub mod csv_file;
 pub mod dataset;
-mod discs;
 pub mod export;
 pub mod generate;
 mod grains;

@@ -1,7 +1,7 @@
 //! Active learning: states in which a solver asked a model outside of its trained range (offenders) become a plan of
 //! new RVEs.
 
-use super::{DatabaseError, Plan, plan::Block};
+use super::{DatabaseError, Plan, Recipe, plan::Block};
 use crate::Compression;
 use serde::Deserialize;
 use sha2::{Digest, Sha256};

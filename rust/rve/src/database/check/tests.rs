@@ -1,6 +1,6 @@
 use super::*;
 use crate::database::plan::RampName;
-use crate::database::{Plan, Record, Run, generate, read};
+use crate::database::{Plan, Recipe, Record, Run, generate, read};
 use std::ops::ControlFlow;
 use std::sync::OnceLock;
 

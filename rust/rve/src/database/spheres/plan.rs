@@ -1,9 +1,13 @@
 //! A plan of packings of spheres and of the paths that they follow: a TOML file with blocks `[[spheres]]`.
 
+use super::check;
 use super::kind::{PathName, SphereCompression};
 use super::paths::{Planned, Steps, planned};
-use crate::database::DatabaseError;
+use super::record::SphereRecord;
+use super::rows::rows;
+use crate::database::recipe::{Recipe, check_count};
 use crate::database::seed::packing_seed;
+use crate::database::{Dataset, Violation};
 use crate::spheres::Preparation;
 use crate::spheres::prepare::{MAX_FRICTION, PACKED_PRESSURES, SHAKING, SPHERES};
 use msdd_beds::sizes::Sizes;
@@ -16,9 +20,6 @@ const POISSON_RATIOS: [f64; 2] = [0.0, 0.5];
 const RESTITUTIONS: [f64; 2] = [0.001, 1.0];
 /// Times that a path may go there and back.
 const CYCLES: [u32; 2] = [1, 1000];
-/// A plan with more packings is taken as a typing error: it would compute for months.
-const MAX_PACKINGS: u64 = 1_000_000;
-
 /// A plan: blocks of packings, each of which follows paths.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -138,63 +139,6 @@ impl SpherePlan {
         text.parse::<toml::Table>().is_ok_and(|table| table.contains_key("spheres"))
     }
 
-    /// Reads a plan. `file` names it in errors.
-    ///
-    /// # Errors
-    /// [`DatabaseError::Plan`].
-    pub fn parse(text: &str, file: &str) -> Result<Self, DatabaseError> {
-        let problem = |problem: String| DatabaseError::Plan { file: file.to_string(), problem };
-        let mut plan: Self = toml::from_str(text).map_err(|error| problem(error.to_string()))?;
-        plan.text = text.to_string();
-        plan.check().map_err(problem)?;
-        Ok(plan)
-    }
-
-    fn check(&self) -> Result<(), String> {
-        if !(0.0..=MAX_FRICTION).contains(&self.friction) {
-            return Err(format!("friction: {}, allowed: 0 to {MAX_FRICTION}", self.friction));
-        }
-        for (key, value, [least, most]) in [
-            ("poisson_ratio", self.poisson_ratio, POISSON_RATIOS),
-            ("restitution", self.restitution, RESTITUTIONS),
-        ] {
-            if !(least..=most).contains(&value) {
-                return Err(format!("{key}: {value}, allowed: {least} to {most}"));
-            }
-        }
-        if self.spheres.is_empty() {
-            return Err("at least one block of packings is needed".to_string());
-        }
-        for (block, number) in self.spheres.iter().zip(1..) {
-            block.check(self.friction).map_err(|problem| format!("[[spheres]] {number}: {problem}"))?;
-        }
-        let packings = self.spheres.iter().map(|block| block.count(self.friction));
-        let packings = packings.fold(0, u64::saturating_add);
-        match packings > MAX_PACKINGS {
-            true => Err(format!("{packings} packings, allowed: {MAX_PACKINGS}")),
-            false => Ok(()),
-        }
-    }
-
-    /// The packings, in order of block, repeat, friction, compression, pressure: so that any first part of a block has all
-    /// kinds.
-    pub fn jobs(&self) -> Vec<SphereJob> {
-        let mut jobs = Vec::new();
-        for block in &self.spheres {
-            for _ in 0..block.repeats {
-                for &packing_friction in &block.frictions(self.friction) {
-                    for &compression in &block.compressions {
-                        for &pressure in &block.pressures {
-                            let packing = jobs.len() as u64;
-                            jobs.push(self.job(packing, block, (packing_friction, compression, pressure)));
-                        }
-                    }
-                }
-            }
-        }
-        jobs
-    }
-
     fn job(
         &self,
         packing: u64,
@@ -221,10 +165,85 @@ impl SpherePlan {
             steps: Steps { seed, pressure, strain: block.strain, size: block.step, cycles: block.cycles },
         }
     }
+}
 
-    /// Rows that the plan makes.
-    pub fn rows(&self) -> usize {
-        self.jobs().iter().map(|job| job.rows().len()).sum()
+impl Recipe for SpherePlan {
+    type Row = SphereRecord;
+    type Job = SphereJob;
+    const ENGINE_VERSION: i64 = 1;
+
+    fn check(&self) -> Result<(), String> {
+        if !(0.0..=MAX_FRICTION).contains(&self.friction) {
+            return Err(format!("friction: {}, allowed: 0 to {MAX_FRICTION}", self.friction));
+        }
+        for (key, value, [least, most]) in [
+            ("poisson_ratio", self.poisson_ratio, POISSON_RATIOS),
+            ("restitution", self.restitution, RESTITUTIONS),
+        ] {
+            if !(least..=most).contains(&value) {
+                return Err(format!("{key}: {value}, allowed: {least} to {most}"));
+            }
+        }
+        if self.spheres.is_empty() {
+            return Err("at least one block of packings is needed".to_string());
+        }
+        for (block, number) in self.spheres.iter().zip(1..) {
+            block.check(self.friction).map_err(|problem| format!("[[spheres]] {number}: {problem}"))?;
+        }
+        check_count(self.spheres.iter().map(|block| block.count(self.friction)))
+    }
+
+    fn with_text(mut self, text: String) -> Self {
+        self.text = text;
+        self
+    }
+
+    fn text(&self) -> &str {
+        &self.text
+    }
+
+    fn grains(&self) -> Vec<(&'static str, String)> {
+        let material = serde_json::json!({
+            "friction": self.friction,
+            "poisson_ratio": self.poisson_ratio,
+            "restitution": self.restitution,
+        });
+        vec![("grains", "spheres".to_string()), ("material", material.to_string())]
+    }
+
+    /// The packings, in order of block, repeat, friction, compression, pressure: so that any first part of a block has all
+    /// kinds.
+    fn jobs(&self) -> Vec<SphereJob> {
+        let mut jobs = Vec::new();
+        for block in &self.spheres {
+            for _ in 0..block.repeats {
+                for &packing_friction in &block.frictions(self.friction) {
+                    for &compression in &block.compressions {
+                        for &pressure in &block.pressures {
+                            let packing = jobs.len() as u64;
+                            jobs.push(self.job(packing, block, (packing_friction, compression, pressure)));
+                        }
+                    }
+                }
+            }
+        }
+        jobs
+    }
+
+    fn packing(job: &SphereJob) -> (i64, u64) {
+        (job.packing, job.preparation.seed)
+    }
+
+    fn places(job: &SphereJob) -> Vec<(PathName, i64)> {
+        job.rows()
+    }
+
+    fn make(&self, job: &SphereJob) -> Vec<SphereRecord> {
+        rows(job)
+    }
+
+    fn violations(dataset: &Dataset<SphereRecord>) -> Vec<Violation> {
+        check::check(dataset).violations
     }
 }
 

@@ -1,6 +1,6 @@
 use super::*;
 use crate::database::spheres::kind::PathName;
-use crate::database::{Run, generate, read_spheres};
+use crate::database::{Recipe, Run, generate, read_spheres};
 use std::ops::ControlFlow;
 use std::sync::OnceLock;
 
