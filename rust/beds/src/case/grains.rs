@@ -375,11 +375,7 @@ impl Grains {
             properties.push(("grains.emissivity", table, RADIATING));
         }
         for (key, property, values) in properties {
-            property.check(range, values).map_err(|error| {
-                let text = error.to_string();
-                let (value, allowed) = text.split_once(", allowed: ").unwrap_or((&text, "see above"));
-                (key.to_string(), value.to_string(), allowed.to_string())
-            })?;
+            property.check(range, values).map_err(|(value, allowed)| (key.to_string(), value, allowed))?;
         }
         let [low, high] = keys.name.range();
         if range[0] < low || range[1] > high {

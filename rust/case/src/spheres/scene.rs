@@ -305,10 +305,8 @@ impl SphereCase {
             ("heatCapacity", &spheres.heat_capacity),
             ("emissivity", &spheres.emissivity),
         ] {
-            if let Err(error) = property.check(self.temperatures(), [0.0, VALUES[1]]) {
-                let text = error.to_string();
-                let (value, allowed) = text.split_once(", allowed: ").unwrap_or((&text, "see above"));
-                return refuse(key, value, allowed);
+            if let Err((value, allowed)) = property.check(self.temperatures(), [0.0, VALUES[1]]) {
+                return refuse(key, &value, &allowed);
             }
         }
         Ok(())
