@@ -129,7 +129,7 @@ impl Offenders {
             wanted.entry(kind).or_default().push(class);
         }
         let kinds = [Compression::Isotropic, Compression::Intermediate, Compression::Horizontal];
-        let paths = || like.paths.first().map(|block| block.boundary);
+        let paths = || like.paths.first().map(|_| Boundary::Periodic);
         let boundary = like.thermal.first().map(|block| block.boundary).or_else(paths).unwrap_or_default();
         let thermal = wanted.into_iter().map(|(kind, mut classes)| {
             classes.sort_unstable();
@@ -140,14 +140,10 @@ impl Offenders {
                 // rounding digits.
                 porosities: classes.iter().map(|class| *class as f64 / (1.0 / CLASS).round()).collect(),
                 compressions: vec![kinds[kind]],
-                packing_friction_angles: Vec::new(),
                 repeats: effort.repeats,
-                ramps: Vec::new(),
                 stops: STOPS.to_vec(),
-                return_stops: Vec::new(),
                 boundary,
-                slide: None,
-                release_walls: false,
+                ..Block::default()
             }
         });
         let plan = Plan {

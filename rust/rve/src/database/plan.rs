@@ -7,7 +7,6 @@ use super::record::Record;
 use super::rows::rows;
 use super::seed::packing_seed;
 use super::{Dataset, ENGINE_VERSION, Violation, check};
-use crate::slide::Slide;
 use crate::{Compression, Material, PackingSpec, Preparation, Relaxation};
 use serde::{Deserialize, Serialize};
 
@@ -52,7 +51,7 @@ pub struct Plan {
 }
 
 /// One packing of a plan.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Job {
     /// Index in the plan.
     pub packing: i64,
@@ -64,7 +63,6 @@ pub struct Job {
     /// Magnitudes, growing; see [`Block`]. Empty for paths.
     pub stops: Vec<f64>,
     pub return_stops: Vec<f64>,
-    pub slide: Slide,
     pub release_walls: bool,
     /// How paths are followed; none for ramps.
     pub steps: Option<Steps>,
@@ -142,18 +140,7 @@ impl Plan {
         let aspect = if kind == Kind::WallShear { SHEAR_ASPECT } else { 1.0 };
         let preparation =
             Preparation { friction_angle: Some(friction_angle), aspect, ..Preparation::default() };
-        let job = Job {
-            packing: packing as i64,
-            kind,
-            spec,
-            preparation,
-            ramps: Vec::new(),
-            stops: Vec::new(),
-            return_stops: Vec::new(),
-            slide: Slide::default(),
-            release_walls: false,
-            steps: None,
-        };
+        let job = Job { packing: packing as i64, kind, spec, preparation, ..Job::default() };
         match block {
             AnyBlock::Paths(block) => Job { ramps: block.paths.clone(), steps: Some(block.steps()), ..job },
             AnyBlock::Ramps(kind, block) => {
@@ -163,7 +150,6 @@ impl Plan {
                     ramps: block.ramps(kind).to_vec(),
                     stops: block.stops.clone(),
                     return_stops: if given { block.return_stops.clone() } else { back() },
-                    slide: block.slide.unwrap_or_default(),
                     release_walls: block.release_walls,
                     ..job
                 }
