@@ -115,8 +115,7 @@ pub fn follow(
 ) -> Result<Ramp, RveError> {
     check(path, protocol, rate_factor(&simulation.material, simulation.mean_radius()))?;
     if let Some(strains) = path.iter().find(|s| s.xy != 0.0 && simulation.periodic.is_none()) {
-        let allowed = "0 between walls; shear needs a periodic box".to_string();
-        return Err(RveError::Parameter { key: "xy", value: strains.xy.to_string(), allowed });
+        return RveError::parameter("xy", strains.xy, "0 between walls; shear needs a periodic box");
     }
     simulation.reset_strain();
     simulation.keep_last_good(KEEP_EVERY);
@@ -145,28 +144,18 @@ fn check(path: &[Strains], protocol: Protocol, factor: f64) -> Result<(), RveErr
     {
         if !(1e-6 * factor..=100.0 * factor).contains(&rate) {
             let allowed =
-                "1e-6 to 100 1/s for the paper's grains, others as their contacts swing faster or slower"
-                    .to_string();
-            return Err(RveError::Parameter { key, value: rate.to_string(), allowed });
+                "1e-6 to 100 1/s for the paper's grains, others as their contacts swing faster or slower";
+            return RveError::parameter(key, rate, allowed);
         }
     }
     if !(1e-12..=1.0).contains(&protocol.unbalanced_limit) {
-        let value = protocol.unbalanced_limit.to_string();
-        return Err(RveError::Parameter {
-            key: "unbalanced limit",
-            value,
-            allowed: "1e-12 to 1".to_string(),
-        });
+        return RveError::parameter("unbalanced limit", protocol.unbalanced_limit, "1e-12 to 1");
     }
     let values =
         path.iter().flat_map(|s| [("thermal strain", s.thermal), ("xx", s.xx), ("yy", s.yy), ("xy", s.xy)]);
     for (key, value) in values {
         if !(-0.2..=0.2).contains(&value) {
-            return Err(RveError::Parameter {
-                key,
-                value: value.to_string(),
-                allowed: "-0.2 to 0.2".to_string(),
-            });
+            return RveError::parameter(key, value, "-0.2 to 0.2");
         }
     }
     Ok(())

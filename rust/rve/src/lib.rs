@@ -73,3 +73,14 @@ pub enum RveError {
     #[error(transparent)]
     Failure(#[from] msdd_dem::Failure),
 }
+
+impl RveError {
+    /// A parameter that is not allowed.
+    pub(crate) fn parameter<T>(
+        key: &'static str,
+        value: impl ToString,
+        allowed: impl Into<String>,
+    ) -> Result<T, Self> {
+        Err(Self::Parameter { key, value: value.to_string(), allowed: allowed.into() })
+    }
+}

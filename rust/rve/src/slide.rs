@@ -41,8 +41,8 @@ pub fn slide(
     let growing =
         slips.windows(2).all(|pair| pair[0] < pair[1]) && slips.iter().all(|&s| s > 0.0 && s <= largest);
     if !growing {
-        let allowed = "growing, above 0, at most 200 mean radii [m]".to_string();
-        return Err(RveError::Parameter { key: "slips", value: format!("{slips:?}"), allowed });
+        let allowed = "growing, above 0, at most 200 mean radii [m]";
+        return RveError::parameter("slips", format!("{slips:?}"), allowed);
     }
     let start: Vec<f64> = simulation.discs.iter().map(|disc| disc.x).collect();
     let mut ramp = Ramp { stops: Vec::new(), failure: None };

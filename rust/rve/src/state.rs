@@ -13,7 +13,7 @@
 //!
 //! `dimension` is 2, or absent, for discs; 3 for spheres, whose states are in [`crate::spheres::state`].
 
-use crate::state_file::{ANY, LARGEST, POSITIVE, check_column, check_digest, digest};
+use crate::state_file::{ANY, LARGEST, POSITIVE, check_column, check_lengths, digest, read};
 pub use crate::state_file::{SCHEMA, StateError, dimension};
 use msdd_dem::failure::LARGEST_OVERLAP;
 use msdd_dem::{Disc, Material, Periodic, RunState, Side, Simulation, Walls};
@@ -214,13 +214,7 @@ fn contacts(simulation: &Simulation) -> Contacts {
 /// # Errors
 /// [`StateError`] names what is wrong, the particle or contact, and the value.
 pub fn from_json(text: &str) -> Result<Simulation, StateError> {
-    let found = dimension(text)?;
-    if found != 2 {
-        return Err(StateError::Dimension { found, allowed: "2, the state of discs" });
-    }
-    let mut file: File = serde_json::from_str(text)?;
-    let checksum = file.checksum.take();
-    check_digest(&file, checksum)?;
+    let file: File = read(text, (2, "2, the state of discs"), |file: &mut File| file.checksum.take())?;
     file.material.check()?;
     let walls = walls(file.bounds)?;
     let discs = discs(&file.particles)?;
@@ -350,13 +344,9 @@ fn check_overlaps(simulation: &Simulation) -> Result<(), StateError> {
 
 fn set_contacts(simulation: &mut Simulation, columns: &Contacts) -> Result<(), StateError> {
     let expected = columns.i.len();
-    for (column, found) in
-        [("contacts.j", columns.j.len()), ("contacts.tangential_force", columns.tangential_force.len())]
-    {
-        if found != expected {
-            return Err(StateError::Length { column, found, expected });
-        }
-    }
+    let lengths =
+        [("contacts.j", columns.j.len()), ("contacts.tangential_force", columns.tangential_force.len())];
+    check_lengths(lengths, expected)?;
     let shifts = shifts(columns, simulation.periodic.is_some())?;
     let count = simulation.discs.len() as i64;
     for (contact, shift) in shifts.into_iter().enumerate() {
@@ -390,9 +380,7 @@ fn shifts(columns: &Contacts, periodic: bool) -> Result<Vec<[i32; 2]>, StateErro
     let given = [("contacts.shift_x", &columns.shift_x), ("contacts.shift_y", &columns.shift_y)];
     for (axis, (column, values)) in given.into_iter().enumerate() {
         let Some(values) = values else { continue };
-        if values.len() != expected {
-            return Err(StateError::Length { column, found: values.len(), expected });
-        }
+        check_lengths([(column, values.len())], expected)?;
         for (contact, &value) in values.iter().enumerate() {
             // Discs and images are near the box (see `check_near`), so shifts are small.
             if value != 0 && (!periodic || value.unsigned_abs() > 4 * FARTHEST_CELL as u32) {

@@ -2,7 +2,7 @@
 //! new RVEs.
 
 use super::{DatabaseError, Plan, Recipe, plan::Block};
-use crate::Compression;
+use crate::{Boundary, Compression};
 use serde::Deserialize;
 use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
@@ -170,7 +170,6 @@ impl Offenders {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Boundary;
 
     const LIKE: &str = "radius_min = 2e-3\nradius_max = 6e-3\nseed = 7\n[[thermal]]\ndiscs = 500\nboundary = \"periodic\"\n\
         porosities = [0.1]\ncompressions = [\"isotropic\"]\nrepeats = 1\nstops = [0.01]\n";

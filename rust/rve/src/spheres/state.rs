@@ -6,7 +6,7 @@
 //! The columns of the contacts are the friction history: tangential force on j and radius of the contact when it was stored.
 
 use crate::state_file::{
-    ANY, POSITIVE, SCHEMA, StateError, check_column, check_digest, digest, dimension, is_allowed,
+    ANY, POSITIVE, SCHEMA, StateError, check_column, check_lengths, digest, is_allowed, read,
 };
 use msdd_spheres::state::{Friction, State};
 use msdd_spheres::{Boundary, Cell, Material, Partner, Simulation, SmallCell, Sphere, Surface, Wall};
@@ -187,13 +187,7 @@ fn file(state: State) -> File {
 /// # Errors
 /// [`StateError`] names what is wrong, the particle or contact, and the value.
 pub fn from_json(text: &str) -> Result<Simulation, StateError> {
-    let found = dimension(text)?;
-    if found != 3 {
-        return Err(StateError::Dimension { found, allowed: "3, the state of spheres" });
-    }
-    let mut file: File = serde_json::from_str(text)?;
-    let checksum = file.checksum.take();
-    check_digest(&file, checksum)?;
+    let file: File = read(text, (3, "3, the state of spheres"), |file: &mut File| file.checksum.take())?;
     file.material.check()?;
     let spheres = spheres(&file.particles)?;
     let boundary = boundary(file.cell, file.walls)?;
@@ -317,9 +311,7 @@ fn friction(columns: &Contacts, count: usize, boundary: &Boundary) -> Result<Vec
         ("contacts.tangential_force", columns.tangential_force.len()),
         ("contacts.contact_radius", columns.contact_radius.len()),
     ];
-    if let Some((column, found)) = lengths.into_iter().find(|(_, found)| *found != expected) {
-        return Err(StateError::Length { column, found, expected });
-    }
+    check_lengths(lengths, expected)?;
     let walls = boundary.walls().len() as i64;
     let of = |contact: usize| {
         let problem = |problem: String| Err(StateError::Contact { contact, problem });
