@@ -190,8 +190,8 @@ impl Network {
         self.source * free.map(|(_, radius)| volume(*radius)).sum::<f64>()
     }
 
-    /// The same with radiation, if there is any, between the spheres, and between them and the plates, whose walls have these numbers. `emissivity`: of the
-    /// spheres, unless it is the one with which rays were traced.
+    /// The same with radiation, if there is any, between the spheres, and between them and the plates, whose walls have these numbers.
+    /// `emissivity`: of the spheres, unless it is the one with which rays were traced.
     pub fn radiating(
         mut self,
         exchange: Option<&Exchange>,

@@ -175,16 +175,10 @@ impl Probe {
             }
         }
         let middle: [f64; 3] = std::array::from_fn(|k| 0.5 * (low[k] + high[k]));
-        let spheres: Vec<_> = (simulation.spheres.iter().enumerate())
-            .filter(|(_, sphere)| {
-                let d = 2.0 * sphere.radius;
-                let away = minus(sphere.position, middle);
-                let near = |k: usize| normal[k].abs() > 0.5 || away[k].abs() < 2.0 * d;
-                (wall.distance(sphere.position) - distance).abs() < 1.5 * d && (0..3).all(near)
-            })
-            .map(|(number, sphere)| (number, wall.distance(sphere.position)))
-            .collect();
-        (!spheres.is_empty()).then_some(Self { spheres, distance })
+        Self::layer(simulation, wall, distance, |sphere| {
+            let away = minus(sphere.position, middle);
+            (0..3).all(|k| normal[k].abs() > 0.5 || away[k].abs() < 4.0 * sphere.radius)
+        })
     }
 
     /// All spheres within 1.5 d of the distance that `used` takes.

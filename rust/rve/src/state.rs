@@ -266,16 +266,10 @@ fn discs(columns: &Particles) -> Result<Vec<Disc>, StateError> {
     for (column, values, allowed) in &table {
         check_column(column, values, allowed, expected)?;
     }
-    let [x, y, radius, mass, vx, vy, angular_velocity, temperature] = table.map(|(_, values, _)| values);
-    let disc = |k: usize| Disc {
-        x: x[k],
-        y: y[k],
-        radius: radius[k],
-        vx: vx[k],
-        vy: vy[k],
-        angular_velocity: angular_velocity[k],
-        mass: mass[k],
-        temperature: temperature[k],
+    let disc = |k: usize| {
+        let [x, y, radius, mass, vx, vy, angular_velocity, temperature] =
+            table.each_ref().map(|(_, values, _)| values[k]);
+        Disc { x, y, radius, vx, vy, angular_velocity, mass, temperature }
     };
     Ok((0..expected).map(disc).collect())
 }
@@ -397,37 +391,27 @@ fn set_run(simulation: &mut Simulation, run: Run) -> Result<(), StateError> {
     let numbers = [run.time, run.time_step, run.strain, run.strain_rate, run.free_drag];
     let walls = run.wall_normal_velocity.iter().chain(&run.wall_tangential_velocity);
     let all = numbers.iter().chain(walls).chain(&run.reference_radius);
+    let wrong = |problem: &str| Err(StateError::Run(problem.to_string()));
     if run.reference_radius.len() != simulation.discs.len()
         || all.clone().any(|v| v.is_nan() || v.abs() > LARGEST)
     {
-        return Err(StateError::Run(
-            "needs numbers from -1e30 to 1e30 and one reference radius a particle".to_string(),
-        ));
+        return wrong("needs numbers from -1e30 to 1e30 and one reference radius a particle");
     }
     if !(run.time_step > 0.0 && run.free_drag >= 0.0 && run.reference_radius.iter().all(|&r| r > 0.0)) {
-        return Err(StateError::Run(
-            "time_step and reference_radius must be > 0, free_drag >= 0".to_string(),
-        ));
+        return wrong("time_step and reference_radius must be > 0, free_drag >= 0");
     }
     let shear_rate = run.shear_rate.unwrap_or(0.0);
     match &mut simulation.periodic {
         Some(periodic) if shear_rate.abs() <= LARGEST => periodic.shear_rate = shear_rate,
         None if run.shear_rate.is_none() => (),
         _ => {
-            let problem = format!("shear_rate = {shear_rate}, allowed: -1e30 to 1e30, in a periodic box");
-            return Err(StateError::Run(problem));
+            return wrong(&format!("shear_rate = {shear_rate}, allowed: -1e30 to 1e30, in a periodic box"));
         }
     }
     simulation.free_drag = run.free_drag;
     simulation.walls.normal_velocity = run.wall_normal_velocity;
     simulation.walls.tangential_velocity = run.wall_tangential_velocity;
-    simulation.set_run_state(RunState {
-        time: run.time,
-        steps: run.steps,
-        time_step: run.time_step,
-        strain: run.strain,
-        strain_rate: run.strain_rate,
-        reference_radius: run.reference_radius,
-    });
+    let Run { time, steps, time_step, strain, strain_rate, reference_radius, .. } = run;
+    simulation.set_run_state(RunState { time, steps, time_step, strain, strain_rate, reference_radius });
     Ok(())
 }

@@ -99,14 +99,12 @@ impl BedCase {
             return wrong(key, "given", "only without a plate, where grains expand and walls move");
         }
         self.grains.check(self.temperatures(), &self.gas)?;
-        match &self.lid {
-            Some(Lid { pressure: Some(_), porosity: Some(_), .. }) => {
-                return wrong("lid", "pressure and porosity", "one of pressure and porosity");
-            }
-            Some(Lid { pressure: None, porosity: None, .. }) => {
-                return wrong("lid", "neither pressure nor porosity", "one of pressure and porosity");
-            }
-            _ => {}
+        let given = self.lid.as_ref().map(|lid| (lid.pressure.is_some(), lid.porosity.is_some()));
+        if let Some((pressure, porosity)) = given
+            && pressure == porosity
+        {
+            let value = if pressure { "pressure and porosity" } else { "neither pressure nor porosity" };
+            return wrong("lid", value, "one of pressure and porosity");
         }
         let turned = self.turn.iter().map(|turn| ("turn.down", &turn.down));
         self.check_walls(turned.chain([("plate.wall", &plate.wall)]), true)?;

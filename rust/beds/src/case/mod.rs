@@ -206,10 +206,12 @@ impl BedCase {
         let mut table: toml::Table = toml::from_str(&text).map_err(|error| read(error.to_string()))?;
         table.insert("seed".to_string(), toml::Value::Integer(self.seed as i64));
         table.remove("vary");
-        if ["experiment", "vary"].contains(&vary.key.split('.').next().unwrap_or_default()) {
-            let allowed = "a key of the bed: all are compared with the same measurements".to_string();
+        let wrong = |allowed: String| {
             let (key, value) = ("vary.key".to_string(), vary.key.clone());
-            return Err(CaseError::Value { file, key, value, allowed });
+            Err(CaseError::Value { file: file.clone(), key, value, allowed })
+        };
+        if ["experiment", "vary"].contains(&vary.key.split('.').next().unwrap_or_default()) {
+            return wrong("a key of the bed: all are compared with the same measurements".to_string());
         }
         match vary.key.split_once('.') {
             None => {
@@ -218,9 +220,7 @@ impl BedCase {
             Some((section, key)) => {
                 let Some(toml::Value::Table(inner)) = table.get_mut(section) else {
                     let sections: Vec<&str> = table.keys().map(String::as_str).collect();
-                    let allowed = format!("a key of {}", sections.join(", "));
-                    let (key, value) = ("vary.key".to_string(), vary.key.clone());
-                    return Err(CaseError::Value { file, key, value, allowed });
+                    return wrong(format!("a key of {}", sections.join(", ")));
                 };
                 inner.insert(key.to_string(), vary.value.clone());
             }

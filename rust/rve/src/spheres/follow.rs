@@ -4,6 +4,7 @@ use super::strain::{Strain, over};
 use crate::stopwatch::{self, Stage};
 use crate::{Outcome, Settled};
 use msdd_beds::averages::stress;
+use msdd_beds::conductivity::mean;
 use msdd_spheres::space::{Matrix, length, plus};
 use msdd_spheres::time_step::SAFETY;
 use msdd_spheres::{Failure, Partner, Simulation, StepChoice};
@@ -106,8 +107,7 @@ fn per_time(simulation: &Simulation, least: f64) -> f64 {
 
 /// p = tr σ/3 \[Pa\].
 pub(super) fn pressure(simulation: &Simulation) -> f64 {
-    let stress = stress(simulation);
-    (stress[0][0] + stress[1][1] + stress[2][2]) / 3.0
+    mean(&stress(simulation))
 }
 
 /// Mean |resultant of the contact forces| over the spheres / (mean normal contact force + floor) \[-\].
