@@ -123,7 +123,7 @@ fn report(bed: &Simulation, (over, pressure, seed): (f64, f64, u64), (solid, gas
     let law = wall.resistance(&material, stress, T, conductivity, &Radiating::NONE) * conductivity / DIAMETER;
     println!(
         "{over} {pressure:.0e} {seed} {solid} {} {inside:.4} {loose:.3} {conductivity:.4} {n:.3} {h:.1} {:.1} {:.3} {:.3}",
-        gas.as_str(),
+        gas,
         wall.conductance(&material, stress, T),
         resistance * conductivity / DIAMETER,
         law + loose,

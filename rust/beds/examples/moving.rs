@@ -22,11 +22,6 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     println!("prepared after {:.0} s", begin.elapsed().as_secs_f64());
     let found = run(&scene, &prepared, |_| ())?;
     std::fs::write(file, elements(&scene, &prepared, &found))?;
-    println!(
-        "{} steps, {} steps of heat, {:.0} s",
-        found.steps,
-        found.heat_steps,
-        begin.elapsed().as_secs_f64()
-    );
+    println!("{} steps, {:.0} s", found.steps, begin.elapsed().as_secs_f64());
     Ok(())
 }

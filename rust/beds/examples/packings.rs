@@ -7,7 +7,7 @@
 //! after that edge has closed by 0.25 % more, both over E.
 
 use msdd_beds::averages::stress;
-use msdd_beds::conductances::{Link, contact_links, gas_links};
+use msdd_beds::conductances::{Link, contact_links, gas_links, near_pairs};
 use msdd_beds::conductivity::{conductivity, mean};
 use msdd_beds::pour::{Container, Pouring, pour};
 use msdd_beds::profile::{Width, solid_fraction};
@@ -113,8 +113,8 @@ fn row(simulation: &Simulation) -> String {
     let effective_modulus = effective_modulus(1.0, 0.25);
     let solid = Solid { conductivity: 1.0, effective_modulus, roughness: None };
     let contacts = solve(&contact_links(simulation, &solid)) / (a.pressure() / effective_modulus).cbrt();
-    let gas =
-        [8.5f64, 6.0, 3.5].map(|log| solve(&gas_links(simulation, 1.0, |radius| radius * (-log).exp())));
+    let gas = [8.5f64, 6.0, 3.5]
+        .map(|log| solve(&gas_links(&near_pairs(simulation), 1.0, |radius| radius * (-log).exp())));
     format!(
         "{:.4} {:.3} {:.3} {:.3} {:.4e} {:.2e} {contacts:.4} {:.3} {:.3} {:.3}",
         a.solid_fraction,

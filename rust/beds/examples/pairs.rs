@@ -3,7 +3,7 @@
 //! Packings with four frictions; h/R as touching spheres of k_s/k_g = 2 to 60 have it without a jump of temperature, and larger. Beside it
 //! the closed form of [`msdd_beds::effective::pairs`], and the largest error of that.
 
-use msdd_beds::conductances::gas_links;
+use msdd_beds::conductances::{gas_links, near_pairs};
 use msdd_beds::conductivity::{conductivity, mean};
 use msdd_beds::effective::pairs;
 use msdd_beds::{Packing, pack};
@@ -36,7 +36,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             let volume = s.cell().map_or(0.0, |cell| cell.volume());
             for ratio in RATIOS {
                 let distance = 50.0 / (ratio * ratio);
-                let links = gas_links(s, 1.0, |radius| radius * distance);
+                let links = gas_links(&near_pairs(s), 1.0, |radius| radius * distance);
                 let found = conductivity(&links, spheres, volume).map_or(f64::NAN, |k| mean(&k.network));
                 println!(
                     "{friction},{seed},{phi:.5},{ratio},{distance:.6},{found:.6},{:.6}",

@@ -15,6 +15,7 @@
 #[path = "direct/mod.rs"]
 mod direct;
 
+use direct::ray_links::ray_links;
 use direct::voxels::{Ball, Sight, Voxels};
 use msdd_beds::conductivity::{conductivity, mean};
 use msdd_beds::exchange::{Emissivities, Tracing, exchange};
@@ -105,7 +106,7 @@ fn rows(name: &str, simulation: &Simulation, phi: f64, rays: usize) -> Result<()
     for emissivity in EMISSIVITIES {
         let surfaces = Emissivities { spheres: emissivity, walls: Vec::new() };
         let traced = exchange(&enclosure, &surfaces, &Tracing { rays, seed: 1, threads: 2 })?;
-        let links = traced.links(&enclosure);
+        let links = ray_links(&traced, &enclosure);
         let found = conductivity(&links, simulation.spheres.len(), volume).ok_or("no solution")?;
         let [xx, yy, zz] = [0, 1, 2].map(|k| found.affine[k][k]);
         let [centres, mixed, points] = spread(&enclosure, emissivity, rays, volume);

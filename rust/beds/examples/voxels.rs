@@ -8,7 +8,7 @@ mod direct;
 
 use direct::correlation::zehner_bauer_schluender;
 use direct::voxels::{Ball, Voxels};
-use msdd_beds::conductances::gas_links;
+use msdd_beds::conductances::{gas_links, near_pairs};
 use msdd_beds::conductivity::{conductivity, mean};
 use msdd_beds::gas::Gas;
 use msdd_beds::{Packing, pack};
@@ -62,7 +62,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
                     heat_capacity_ratio: 1.4,
                     accommodation: 1.0,
                 };
-                let links = gas_links(&simulation, 1.0, |radius| gas.least_distance(radius, ratio));
+                let links =
+                    gas_links(&near_pairs(&simulation), 1.0, |radius| gas.least_distance(radius, ratio));
                 let network = conductivity(&links, spheres, volume).map_or(f64::NAN, |k| mean(&k.network));
                 let phi = solved[2].solid_fraction;
                 println!(

@@ -107,7 +107,7 @@ fn report(bed: &Simulation, pressure: f64, seed: u64, gas: GasName, area: f64) {
         let said = surface.conductance(&bed, force, T);
         println!(
             "{pressure:.0e} {seed} {} {conductivity:.4} {} {n:.3} {:.3} {:.3} {h:.1} {said:.1}",
-            gas.as_str(),
+            gas,
             ["floor", "lid"][plate],
             resistance * conductivity / DIAMETER,
             surface.resistance(&bed, force, T, conductivity, &Radiating::NONE) * conductivity / DIAMETER,

@@ -11,7 +11,7 @@
 mod direct;
 
 use direct::correlation::{pore_width, radiation, zehner_bauer_schluender};
-use msdd_beds::conductances::{contact_links, gas_links};
+use msdd_beds::conductances::{contact_links, gas_links, near_pairs};
 use msdd_beds::conductivity::{conductivity, mean};
 use msdd_beds::effective::{contact_factor, poor_spheres, share_of_pairs};
 use msdd_beds::named_gases::GasName;
@@ -73,7 +73,7 @@ fn packed(seeds: u64, file: &Path) -> Any<()> {
             let solve =
                 |links: &[_]| conductivity(links, 1000, volume).map_or(f64::NAN, |k| mean(&k.network));
             let c = solve(&contact_links(s, &solid)) / (a.pressure() / solid.effective_modulus).cbrt();
-            let gas = LOGS.map(|log| solve(&gas_links(s, 1.0, |radius| radius * (-log).exp())));
+            let gas = LOGS.map(|log| solve(&gas_links(&near_pairs(s), 1.0, |radius| radius * (-log).exp())));
             let row = [a.solid_fraction, c, gas[0], gas[1], gas[2], a.coordination];
             writeln!(text, "{friction},{seed},{}", row.map(|x| format!("{x:.5}")).join(","))?;
         }

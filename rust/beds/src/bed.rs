@@ -4,16 +4,15 @@ use crate::BedError;
 use crate::case::BedCase;
 use crate::exchange::Exchange;
 use crate::experiment::Record;
-use crate::network::{Materials, Network, Plate, PlateLaw};
+use crate::network::{Network, Plate, PlateLaw};
 use crate::pour::{Container, pour};
 use crate::press::{close, press};
 use crate::profile::{Probe, Slab, Width, slab, solid_fraction};
 use crate::settle::{Rest, progress, settle, turn};
-use crate::solid::{PeakStress, Roughness};
+use crate::solid::Roughness;
 use crate::transient::Transient;
-use msdd_spheres::law::effective_modulus;
 use msdd_spheres::space::dot;
-use msdd_spheres::{Partner, Simulation, Sphere, Surface, Wall};
+use msdd_spheres::{Simulation, Sphere, Surface, Wall};
 
 /// Time of turning \[s\], for grains of a diameter \[m\] under a gravity \[m/s²\]; it is in proportion to √(d/g).
 const TURNING: [f64; 3] = [0.2, 6.4e-3, 9.81];
@@ -21,7 +20,8 @@ const TURNING: [f64; 3] = [0.2, 6.4e-3, 9.81];
 const FIRST_STEP: f64 = 0.1;
 
 /// The two ways in which a plate is taken.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
+#[serde(rename_all = "lowercase")]
 pub enum PlateKind {
     /// The first layer of grains has the plate's temperature.
     Held,
@@ -29,15 +29,10 @@ pub enum PlateKind {
     Resisting,
 }
 
+crate::named!(PlateKind);
+
 impl PlateKind {
     pub const ALL: [Self; 2] = [Self::Held, Self::Resisting];
-
-    pub fn as_str(self) -> &'static str {
-        match self {
-            Self::Held => "held",
-            Self::Resisting => "resisting",
-        }
-    }
 }
 
 /// A bed at rest before it is heated.
@@ -79,10 +74,9 @@ pub fn prepare(
     let (d, g) = (grains.diameter, case.container.gravity);
     let pouring = grains.pouring(case.seed, case.vessel(), g, threads);
     let allowed = pouring.longest;
-    let names = case.wall_names();
-    let number = |name: &str| names.iter().position(|known| *known == name).unwrap_or_default();
+    let number = |name: &str| case.wall(name).unwrap_or_default();
     let (mut simulation, rest) = pour(&pouring, |agitation| watch("pour", progress(agitation)))?;
-    let mut stages = vec![("pour", rested("pour", rest)?)];
+    let mut stages = vec![rest.of("pour")?];
     if let Some(lid) = &case.lid {
         let (wall, area) = (number("lid"), pouring.container.area());
         let watch = |agitation| watch("lid", progress(agitation));
@@ -92,7 +86,7 @@ pub fn prepare(
                 press(&mut simulation, wall, (pressure.unwrap_or_default(), area), allowed, watch)?
             }
         };
-        stages.push(("lid", rested("lid", rest)?));
+        stages.push(rest.of("lid")?);
     }
     if let Some(turned) = &case.turn {
         let Surface::Flat { normal } = simulation.boundary.walls()[number(&turned.down)].surface else {
@@ -105,23 +99,17 @@ pub fn prepare(
             |_| watch("turn", 0.0),
         )?;
         let rest = settle(&mut simulation, allowed, |a| watch("turn", progress(a)))?;
-        stages.push(("turn", rested("turn", rest)?));
+        stages.push(rest.of("turn")?);
     }
     let plate = number(&case.plate().wall);
     if let Some(pressure) = case.plate().pressure {
         let load = (pressure, parallel_area(&case.vessel(), &simulation, plate));
         let rest = press(&mut simulation, plate, load, allowed, |a| watch("plate", progress(a)))?;
-        stages.push(("plate", rested("plate", rest)?));
+        stages.push(rest.of("plate")?);
     }
     let walls = [(plate, case.plate().emissivity)];
     let exchange = grains.exchange(&simulation, &walls, case.temperatures(), (case.seed, threads))?;
     Ok(Bed { simulation, stages, plate, exchange })
-}
-
-/// A bed that still moves is not heated.
-fn rested(stage: &'static str, rest: Rest) -> Result<Rest, BedError> {
-    let Rest { at_rest, kinetic, time, .. } = rest;
-    if at_rest { Ok(rest) } else { Err(BedError::NotSettled { stage, time, kinetic }) }
 }
 
 /// Area of the bed parallel to a flat wall \[m²\].
@@ -159,20 +147,8 @@ impl Bed {
     /// What a lid that stopped at a porosity presses with \[Pa\], without friction.
     pub fn lid_pressure(&self, case: &BedCase) -> Option<f64> {
         case.lid.as_ref()?.porosity?;
-        let lid = case.wall_names().iter().position(|name| *name == "lid")?;
+        let lid = case.wall("lid")?;
         Some(self.simulation.wall_load(lid) / case.vessel().area())
-    }
-
-    /// The stress in its contacts against the yield stress, if that is given.
-    pub fn peak_stress(&self, case: &BedCase) -> Option<PeakStress> {
-        let mut contacts = Vec::new();
-        self.simulation.for_each_contact(|contact| {
-            if let Partner::Sphere(_) = contact.i {
-                contacts.push((contact.normal_force, contact.effective_radius));
-            }
-        });
-        let modulus = effective_modulus(case.grains.young_modulus, case.grains.poisson_ratio);
-        case.grains.yield_stress.map(|limit| PeakStress::new(contacts.into_iter(), modulus, limit))
     }
 
     /// φ \[-\] of the middle half of the bed.
@@ -187,20 +163,7 @@ impl Bed {
     /// The network of the bed with a plate of a kind.
     pub fn network(&self, case: &BedCase, kind: PlateKind) -> Network {
         let (grains, keys) = (&case.grains, case.plate());
-        let rough = |height: Option<f64>, hardness: Option<f64>| {
-            let (height_over_slope, hardness) = (height?, hardness?);
-            Some(Roughness { height_over_slope, hardness })
-        };
-        let materials = Materials {
-            conductivity: grains.conductivity.clone(),
-            heat_capacity: grains.heat_capacity.clone(),
-            effective_modulus: effective_modulus(grains.young_modulus, grains.poisson_ratio),
-            roughness: rough(grains.roughness, grains.hardness),
-            gas: case.gas.name,
-            gas_pressure: case.gas.pressure,
-            accommodation: case.gas.accommodation,
-            solid_fraction: Some(self.solid_fraction(case)),
-        };
+        let materials = grains.materials(&case.gas, self.solid_fraction(case));
         // 1/E* is the sum of (1 − ν²)/E of both.
         let compliance = |young: f64, poisson: f64| (1.0 - poisson * poisson) / young;
         let both = compliance(grains.young_modulus, grains.poisson_ratio)
@@ -210,14 +173,11 @@ impl Bed {
             PlateKind::Resisting => PlateLaw::Resisting {
                 conductivity: keys.conductivity,
                 effective_modulus: 1.0 / both,
-                roughness: rough(keys.roughness, keys.hardness),
+                roughness: Roughness::given(keys.roughness, keys.hardness),
             },
         };
         let network = Network::new(&self.simulation, materials, &[Plate { wall: self.plate, law }]);
-        match &self.exchange {
-            Some(exchange) => network.radiating(exchange, grains.emissivity.clone(), &[self.plate]),
-            None => network,
-        }
+        network.radiating(self.exchange.as_ref(), grains.emissivity.clone(), &[self.plate])
     }
 
     /// Averages between two distances from the plate \[m\], at the initial temperature.

@@ -87,19 +87,12 @@ pub fn near_pairs(simulation: &Simulation) -> Vec<Near> {
     pairs
 }
 
-/// Gas of conductivity `conductivity` \[W/(m K)\] between all near pairs. `least_distance` is the part of h without the gap
+/// Gas of conductivity `conductivity` \[W/(m K)\] between near pairs. `least_distance` is the part of h without the gap
 /// \[m\] (see [`crate::gas::Gas::least_distance`]) for a radius.
-pub fn gas_links(
-    simulation: &Simulation,
-    conductivity: f64,
-    least_distance: impl Fn(f64) -> f64,
-) -> Vec<Link> {
-    let pairs = near_pairs(simulation).into_iter();
-    pairs
-        .map(|pair| {
-            let distance = pair.gap + least_distance(pair.radius);
-            let conductance = unequal_conductance(conductivity, pair.radius, pair.smaller, distance);
-            Link { i: pair.i, j: pair.j, branch: pair.branch, conductance }
-        })
-        .collect()
+pub fn gas_links(near: &[Near], conductivity: f64, least_distance: impl Fn(f64) -> f64) -> Vec<Link> {
+    let link = |&Near { i, j, branch, radius, smaller, gap }: &Near| {
+        let conductance = unequal_conductance(conductivity, radius, smaller, gap + least_distance(radius));
+        Link { i, j, branch, conductance }
+    };
+    near.iter().map(link).collect()
 }

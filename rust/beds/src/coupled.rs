@@ -19,18 +19,16 @@ use crate::BedError;
 use crate::case::{BedCase, Heated};
 use crate::exchange::Exchange;
 use crate::harden::harden;
-use crate::network::{Materials, Network, Plate, PlateLaw};
+use crate::network::{Network, Plate, PlateLaw};
 use crate::pour::pour;
 use crate::press::press;
 use crate::profile::{Probe, Width, slab, solid_fraction};
 use crate::region::{Region, lengths};
 use crate::settle::{Rest, progress};
-use crate::solid::{PeakStress, Roughness};
 use crate::transient::Transient;
 use crate::wall_control::{BLOCK, Moving, WallControl, drag, steered, wall_area};
-use msdd_spheres::law::effective_modulus;
+use msdd_spheres::Simulation;
 use msdd_spheres::space::length;
-use msdd_spheres::{Partner, Simulation};
 use std::f64::consts::PI;
 
 /// First time step of heat \[s\].
@@ -145,7 +143,7 @@ pub fn side_friction(scene: &BedCase, row: &Row) -> Option<f64> {
 }
 
 /// A bed over time.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Run {
     pub rows: Vec<Row>,
     /// Heat that the grains stored which no wall holds, and the residual of its balance \[J\].
@@ -153,8 +151,7 @@ pub struct Run {
     pub residual: f64,
     /// Largest overlap of a contact over the radius, at the times of the rows.
     pub overlap: f64,
-    /// Steps of heat, and of DEM.
-    pub heat_steps: u64,
+    /// Of DEM.
     pub steps: u64,
     /// Intervals, those of them whose motion had to be hurried, and those that ended with more out of balance than beds near rest have.
     pub intervals: u64,
@@ -174,15 +171,11 @@ pub fn prepare(
     let (grains, container) = (&scene.grains, scene.vessel());
     let pouring = grains.pouring(scene.seed, container, scene.container.gravity, threads);
     let allowed = pouring.longest;
-    let rested = |stage: &'static str, rest: Rest| match rest.at_rest {
-        true => Ok((stage, rest)),
-        false => Err(BedError::NotSettled { stage, time: rest.time, kinetic: rest.kinetic }),
-    };
     let (mut simulation, rest) = pour(&pouring, |agitation| watch("pour", progress(agitation)))?;
-    let mut stages = vec![rested("pour", rest)?];
+    let mut stages = vec![rest.of("pour")?];
     let (lid, load) = (scene.wall("lid").unwrap_or_default(), (scene.pressure(), container.area()));
     let rest = press(&mut simulation, lid, load, allowed, |a| watch("lid", progress(a)))?;
-    stages.push(rested("lid", rest)?);
+    stages.push(rest.of("lid")?);
     let depth = simulation.boundary.walls()[lid].point[2];
     if grains.young_modulus > grains.simulated_young_modulus {
         // Rough walls would hold the stress that the modulus adds inside, which the lid lets go.
@@ -191,7 +184,7 @@ pub fn prepare(
     let rest =
         harden(&mut simulation, grains.young_modulus, lid, load, depth, |share| watch("harden", share))?;
     simulation.material.wall_friction = grains.wall_friction;
-    stages.push(rested("harden", rest)?);
+    stages.push(rest.of("harden")?);
     let walls: Vec<(usize, Option<f64>)> = heated_walls(scene).map(|wall| (wall, None)).collect();
     let exchange = grains.exchange(&simulation, &walls, scene.temperatures(), (scene.seed, threads))?;
     Ok(Prepared { simulation, stages, exchange })
@@ -272,17 +265,7 @@ impl<'a> Coupled<'a> {
             depth_at_start: 0.0,
             sides: None,
             part: 0.0,
-            run: Run {
-                rows: Vec::new(),
-                stored: 0.0,
-                residual: 0.0,
-                overlap: 0.0,
-                heat_steps: 0,
-                steps: simulation.steps,
-                intervals: 0,
-                hurried: 0,
-                restless: 0,
-            },
+            run: Run { steps: simulation.steps, ..Run::default() },
             simulation,
         };
         bed.depth_at_start = bed.depth();
@@ -318,7 +301,6 @@ impl<'a> Coupled<'a> {
         transient.run_to(to - from, self.scene.time.tolerance, step)?;
         self.run.stored += transient.stored();
         self.run.residual += transient.residual();
-        self.run.heat_steps += transient.steps;
         let plates = at(to);
         for ((temperature, found), held) in
             self.temperatures.iter_mut().zip(&transient.temperatures).zip(&self.held)
@@ -490,7 +472,7 @@ impl<'a> Coupled<'a> {
             let ring = Width::Ring([inner, radius - rim]);
             1.0 - solid_fraction(simulation, &floor, keys.heights, ring)
         });
-        let (peak, overlap) = (self.peak(), self.overlap());
+        let (peak, overlap) = (scene.grains.peak_stress(simulation), self.overlap());
         if overlap > ABSURD_OVERLAP {
             return Err(BedError::Overlap { time, overlap, most: ABSURD_OVERLAP });
         }
@@ -527,18 +509,6 @@ impl<'a> Coupled<'a> {
         self.run.rows.push(row);
         Ok(())
     }
-
-    fn peak(&self) -> Option<PeakStress> {
-        let mut contacts = Vec::new();
-        self.simulation.for_each_contact(|contact| {
-            if let Partner::Sphere(_) = contact.i {
-                contacts.push((contact.normal_force, contact.effective_radius));
-            }
-        });
-        let grains = &self.scene.grains;
-        let modulus = effective_modulus(grains.young_modulus, grains.poisson_ratio);
-        grains.yield_stress.map(|limit| PeakStress::new(contacts.into_iter(), modulus, limit))
-    }
 }
 
 fn depth(simulation: &Simulation, lid: usize) -> f64 {
@@ -570,22 +540,8 @@ fn network(scene: &BedCase, (simulation, exchange): (&Simulation, Option<&Exchan
     let grains = &scene.grains;
     let middle = [0.25, 0.75].map(|part| part * depth);
     let floor = simulation.boundary.walls()[0];
-    let roughness = grains.roughness.zip(grains.hardness);
-    let materials = Materials {
-        conductivity: grains.conductivity.clone(),
-        heat_capacity: grains.heat_capacity.clone(),
-        effective_modulus: effective_modulus(grains.young_modulus, grains.poisson_ratio),
-        roughness: roughness.map(|(height_over_slope, hardness)| Roughness { height_over_slope, hardness }),
-        gas: scene.gas.name,
-        gas_pressure: scene.gas.pressure,
-        accommodation: scene.gas.accommodation,
-        solid_fraction: Some(solid_fraction(
-            simulation,
-            &floor,
-            middle,
-            Width::Whole(area(scene, simulation)),
-        )),
-    };
+    let width = Width::Whole(area(scene, simulation));
+    let materials = grains.materials(&scene.gas, solid_fraction(simulation, &floor, middle, width));
     let walls: Vec<usize> = heated_walls(scene).collect();
     // Of the material of the spheres, and polished: the asperities are theirs.
     let law = |heated: &Heated| match heated.resists {
@@ -600,10 +556,7 @@ fn network(scene: &BedCase, (simulation, exchange): (&Simulation, Option<&Exchan
         walls.iter().zip(&scene.heated).map(|(&wall, heated)| Plate { wall, law: law(heated) }).collect();
     let mut network = Network::new(simulation, materials, &plates);
     network.source = scene.heat_source.unwrap_or(0.0);
-    match exchange {
-        Some(exchange) => network.radiating(exchange, grains.emissivity.clone(), &walls),
-        None => network,
-    }
+    network.radiating(exchange, grains.emissivity.clone(), &walls)
 }
 
 /// Numbers of the heated walls.

@@ -4,7 +4,6 @@
 //! body j, after any reflections between, and heat between both is 4 σ T³ ε_i A_i s_ij (T_i − T_j) for small differences: ε_i A_i s_ij
 //! = ε_j A_j s_ji (Modest, Radiative Heat Transfer, 2003, section 20.3). A packing hardly moves, so its shares are traced once.
 
-use crate::conductances::Link;
 use crate::random::Random;
 use crate::rays::{Body, Enclosure};
 use msdd_engine::message::{number, range};
@@ -20,7 +19,7 @@ pub const RADIATING: [f64; 2] = [0.01, 1.0];
 /// How many rays are traced, and how.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tracing {
-    /// Rays from each sphere, 1 to 1 000 000, and from each wall whose area is known.
+    /// Rays from each sphere, 1 to 1 000 000.
     pub rays: usize,
     pub seed: u64,
     /// The result does not depend on it.
@@ -32,6 +31,17 @@ pub struct Tracing {
 pub struct Emissivities {
     pub spheres: f64,
     pub walls: Vec<f64>,
+}
+
+impl Emissivities {
+    /// What a body absorbs of what meets it \[-\].
+    pub fn absorbed(&self, body: Body) -> f64 {
+        match body {
+            Body::Sphere(_) => self.spheres,
+            Body::Wall(wall) => self.walls[wall as usize],
+            Body::Open => 1.0,
+        }
+    }
 }
 
 /// A value outside of its range.
@@ -69,12 +79,10 @@ pub struct Exchange {
     pub areas: Vec<f64>,
     /// What each sphere emits, by absorbers in order; they sum to 1.
     pub spheres: Vec<Vec<Share>>,
-    /// What a wall emits and its area \[m²\], if that is known: of flat walls next to a cell that repeats itself, unless they reflect all.
-    pub walls: Vec<Option<(f64, Vec<Share>)>>,
     rays: usize,
 }
 
-/// Traces the rays of all bodies. Bytes do not depend on the number of threads.
+/// Traces the rays of all spheres. Bytes do not depend on the number of threads.
 ///
 /// # Errors
 /// A number outside its range.
@@ -101,50 +109,34 @@ pub fn exchange(
     let rays = tracing.rays;
     OutOfRange::check("rays", rays as f64, (1..=1_000_000).contains(&rays), "1 to 1000000")?;
     let count = enclosure.radii().len();
-    let row = |body: usize| {
-        let wall = body.checked_sub(count);
-        let area = wall
-            .map_or(Some(0.0), |wall| enclosure.wall_area(wall).filter(|_| emissivities.walls[wall] > 0.0));
-        area.map(|area| (area, shares(enclosure, emissivities, tracing, (body, wall))))
-    };
-    let bodies = count + walls;
-    let threads = tracing.threads.clamp(1, bodies.max(1));
-    let each = bodies.div_ceil(threads);
-    let mut rows: Vec<Option<(f64, Vec<Share>)>> = vec![None; bodies];
+    let threads = tracing.threads.clamp(1, count.max(1));
+    let each = count.div_ceil(threads);
+    let mut rows: Vec<Vec<Share>> = vec![Vec::new(); count];
     std::thread::scope(|scope| {
         for (number, part) in rows.chunks_mut(each.max(1)).enumerate() {
-            let row = &row;
             scope.spawn(move || {
-                part.iter_mut().enumerate().for_each(|(k, place)| *place = row(number * each + k));
+                part.iter_mut().enumerate().for_each(|(k, row)| {
+                    *row = shares(enclosure, emissivities, tracing, number * each + k);
+                });
             });
         }
     });
-    let walls = rows.split_off(count);
-    let spheres = rows.into_iter().flatten().map(|(_, shares)| shares).collect();
     let areas = enclosure.radii().iter().map(|r| 4.0 * PI * r * r).collect();
-    Ok(Exchange { emissivities: emissivities.clone(), areas, spheres, walls, rays })
+    Ok(Exchange { emissivities: emissivities.clone(), areas, spheres: rows, rays })
 }
 
-/// Of one body, which is a sphere unless it is a wall.
+/// Of one sphere.
 fn shares(
     enclosure: &Enclosure,
     emissivities: &Emissivities,
     tracing: &Tracing,
-    (body, wall): (usize, Option<usize>),
+    sphere: usize,
 ) -> Vec<Share> {
-    let mut random = Random::stream(tracing.seed, body as u64);
-    let absorbed = |body: Body| match body {
-        Body::Sphere(_) => emissivities.spheres,
-        Body::Wall(wall) => emissivities.walls[wall as usize],
-        Body::Open => 1.0,
-    };
+    let mut random = Random::stream(tracing.seed, sphere as u64);
     let mut counts = BTreeMap::new();
     for _ in 0..tracing.rays {
-        let start = match wall {
-            None => enclosure.on_sphere(body, &mut random),
-            Some(wall) => enclosure.on_wall(wall, &mut random),
-        };
-        let end = enclosure.follow(start, absorbed, &mut random);
+        let start = enclosure.on_sphere(sphere, &mut random);
+        let end = enclosure.follow(start, |body| emissivities.absorbed(body), &mut random);
         *counts.entry((end.body, end.shift)).or_insert(0u32) += 1;
     }
     let share = |count: u32| f64::from(count) / tracing.rays as f64;
@@ -152,22 +144,6 @@ fn shares(
 }
 
 impl Exchange {
-    /// Conductances between the spheres over 4 σ T³ \[m²\], one for each direction: ε A s/2, so that both together are the mean of what
-    /// both spheres found.
-    pub fn links(&self, enclosure: &Enclosure) -> Vec<Link> {
-        let mut links = Vec::new();
-        for (i, shares) in self.spheres.iter().enumerate() {
-            let half = 0.5 * self.emissivities.spheres * self.areas[i];
-            for share in shares {
-                if let Body::Sphere(j) = share.body {
-                    let (j, conductance) = (j as usize, half * share.share);
-                    links.push(Link { i, j, branch: enclosure.branch(i, j, share.shift), conductance });
-                }
-            }
-        }
-        links
-    }
-
     /// ε A s \[m²\] between pairs of spheres, the mean of what both found, in order of their numbers.
     pub fn pairs(&self) -> Vec<(usize, usize, f64)> {
         let mut pairs = BTreeMap::new();

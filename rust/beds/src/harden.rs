@@ -54,12 +54,8 @@ pub fn harden(
         if at_rest || block >= hard + MOST {
             simulation.drag = 0.0;
             lid.stop(simulation);
-            return Ok(Rest {
-                at_rest,
-                kinetic,
-                time: simulation.time - start,
-                steps: simulation.steps - first,
-            });
+            let (time, steps) = (simulation.time - start, simulation.steps - first);
+            return Ok(Rest { at_rest, kinetic, time, steps });
         }
     }
 }

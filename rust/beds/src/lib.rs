@@ -44,6 +44,18 @@
 //! | [`conductivity`](mod@conductivity) | conductivity of a periodic box by its network of conductances |
 #![forbid(unsafe_code)]
 
+/// Writes enumerations by the names that serde gives them.
+#[macro_export]
+macro_rules! named {
+    ($($type:ty)*) => {$(
+        impl std::fmt::Display for $type {
+            fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                serde::Serialize::serialize(self, f)
+            }
+        }
+    )*};
+}
+
 #[cfg(test)]
 #[path = "../examples/direct/mod.rs"]
 mod direct;

@@ -39,18 +39,10 @@ pub enum GasName {
     Vacuum,
 }
 
+crate::named!(GasName);
+
 impl GasName {
     pub const ALL: [Self; 5] = [Self::Air, Self::Nitrogen, Self::Helium, Self::Argon, Self::Vacuum];
-
-    pub fn as_str(self) -> &'static str {
-        match self {
-            Self::Air => "air",
-            Self::Nitrogen => "nitrogen",
-            Self::Helium => "helium",
-            Self::Argon => "argon",
-            Self::Vacuum => "vacuum",
-        }
-    }
 
     /// Temperatures \[K\] between which the properties are known.
     pub fn range(self) -> [f64; 2] {

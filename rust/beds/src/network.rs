@@ -190,9 +190,15 @@ impl Network {
         self.source * free.map(|(_, radius)| volume(*radius)).sum::<f64>()
     }
 
-    /// The same with radiation between the spheres, and between them and the plates, whose walls have these numbers. `emissivity`: of the
-    /// spheres, unless it is the one with which rays were traced.
-    pub fn radiating(mut self, exchange: &Exchange, emissivity: Option<Property>, walls: &[usize]) -> Self {
+    /// The same with radiation, if there is any, between the spheres, and between them and the plates, whose walls have these numbers.
+    /// `emissivity`: of the spheres, unless it is the one with which rays were traced.
+    pub fn radiating(
+        mut self,
+        exchange: Option<&Exchange>,
+        emissivity: Option<Property>,
+        walls: &[usize],
+    ) -> Self {
+        let Some(exchange) = exchange else { return self };
         let at = |(plate, wall): (usize, &usize)| {
             exchange.at_wall(*wall).into_iter().map(move |(sphere, size)| (sphere, plate, size))
         };

@@ -8,7 +8,6 @@ use crate::random::Random;
 use crate::scatter::scatter;
 use crate::sizes::{Moments, Sizes, radii};
 use msdd_spheres::{Boundary, Cell, Material, Simulation, Sphere, Stiffness};
-use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 
 /// Solid fraction at the start; random sequential addition ends at 0.38.
@@ -35,15 +34,13 @@ const MIXING_SEED: u64 = 0x5bd1_e995;
 const BALANCED: [f64; 2] = [1e-4, 1e-8];
 
 /// What to pack.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Packing {
     pub spheres: usize,
     pub seed: u64,
     /// d \[m\], the Sauter mean.
     pub diameter: f64,
     /// Of the diameters; none: equal ones.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub sizes: Option<Sizes>,
     /// The friction in it is that while packing.
     pub material: Material,

@@ -14,7 +14,7 @@
 //! jumps and spreading in the solid add ([`crate::gas`]). No number is fitted. In beds whose spheres all have one temperature, the heat
 //! through a plate is 2 to 6 % more by this law than by direct solutions (`examples/plates.rs`).
 
-use msdd_spheres::space::{dot, length, minus, plus, scaled};
+use msdd_spheres::space::{cross, dot, length, minus, plus, scaled};
 use msdd_spheres::{Simulation, Sphere, Surface, Wall};
 use std::f64::consts::PI;
 
@@ -184,14 +184,6 @@ fn around(simulation: &Simulation, side: &Wall, (axis, radius): ([f64; 3], f64))
     }
     all.sort_by_key(|facing| facing.sphere);
     all
-}
-
-/// The vector product.
-fn cross(u: [f64; 3], v: [f64; 3]) -> [f64; 3] {
-    std::array::from_fn(|k| {
-        let (a, b) = ((k + 1) % 3, (k + 2) % 3);
-        u[a] * v[b] - u[b] * v[a]
-    })
 }
 
 /// Two unit vectors along a plane.

@@ -1,7 +1,7 @@
 //! What a bed is like between two distances from a plate.
 
 use crate::network::Network;
-use crate::solve::{conjugate_gradients, inner};
+use crate::solve::{add_flows, conjugate_gradients, inner};
 use msdd_spheres::space::{dot, minus, plus, scaled};
 use msdd_spheres::{Partner, Simulation, Sphere, Wall};
 use std::f64::consts::PI;
@@ -146,17 +146,7 @@ pub fn flux(
     }
     diagonal.iter_mut().filter(|sum| **sum == 0.0).for_each(|sum| *sum = 1.0);
     let scale: f64 = links.iter().map(|&(i, j, g)| (g * (distances[i] - distances[j])).powi(2)).sum();
-    let apply = |x: &[f64], y: &mut [f64]| {
-        for &(i, j, g) in links {
-            let flow = g * (x[i] - x[j]);
-            if free[i] {
-                y[i] += flow;
-            }
-            if free[j] {
-                y[j] -= flow;
-            }
-        }
-    };
+    let apply = |x: &[f64], y: &mut [f64]| add_flows(links, 1.0, |k| free[k], x, y);
     let change = conjugate_gradients(apply, &diagonal, &mut residual, |r| inner(r, r) <= 1e-20 * scale)?;
     let middle = 0.5 * (from + to);
     let flux: f64 = (links.iter())
@@ -185,16 +175,10 @@ impl Probe {
             }
         }
         let middle: [f64; 3] = std::array::from_fn(|k| 0.5 * (low[k] + high[k]));
-        let spheres: Vec<_> = (simulation.spheres.iter().enumerate())
-            .filter(|(_, sphere)| {
-                let d = 2.0 * sphere.radius;
-                let away = minus(sphere.position, middle);
-                let near = |k: usize| normal[k].abs() > 0.5 || away[k].abs() < 2.0 * d;
-                (wall.distance(sphere.position) - distance).abs() < 1.5 * d && (0..3).all(near)
-            })
-            .map(|(number, sphere)| (number, wall.distance(sphere.position)))
-            .collect();
-        (!spheres.is_empty()).then_some(Self { spheres, distance })
+        Self::layer(simulation, wall, distance, |sphere| {
+            let away = minus(sphere.position, middle);
+            (0..3).all(|k| normal[k].abs() > 0.5 || away[k].abs() < 4.0 * sphere.radius)
+        })
     }
 
     /// All spheres within 1.5 d of the distance that `used` takes.

@@ -1,6 +1,6 @@
 //! Properties of materials that may depend on temperature.
 
-use msdd_engine::message::number;
+use msdd_engine::message::{number, range};
 use serde::{Deserialize, Serialize};
 
 /// What most properties may be.
@@ -14,54 +14,39 @@ pub enum Property {
     Table(Vec<[f64; 2]>),
 }
 
-/// A property that cannot be used.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum TableError {
-    #[error("{}, allowed: {allowed}", number(*value))]
-    Value { value: f64, allowed: String },
-    #[error("a table with temperature {} K, allowed: 0 to 1000000 K", number(*value))]
-    Temperature { value: f64 },
-    #[error("{rows} rows, allowed: two at least")]
-    Short { rows: usize },
-    #[error("temperatures {} K and {} K in this order, allowed: rising temperatures", number(*first), number(*second))]
-    Order { first: f64, second: f64 },
-    #[error("known from {} K to {} K, allowed: a table that covers {} K to {} K, the temperatures of the run",
-        number(known[0]), number(known[1]), number(wanted[0]), number(wanted[1]))]
-    Range { known: [f64; 2], wanted: [f64; 2] },
-}
-
 impl Property {
-    /// Checks that all values are in their range and that the table covers `range` \[K\].
+    /// Value and what is allowed of the first thing that is wrong: values lie in `values`, temperatures rise and cover `wanted` \[K\].
     ///
     /// # Errors
-    /// The first thing that is wrong.
-    pub fn check(&self, range: [f64; 2], values: [f64; 2]) -> Result<(), TableError> {
-        let allowed = msdd_engine::message::range(values);
+    /// As said.
+    pub fn check(&self, wanted: [f64; 2], values: [f64; 2]) -> Result<(), (String, String)> {
+        let wrong = |value: String, allowed: &str| Err((value, allowed.to_string()));
         let fits = |value: f64| (values[0]..=values[1]).contains(&value);
-        match self {
-            Self::Constant(value) if fits(*value) => Ok(()),
-            Self::Constant(value) => Err(TableError::Value { value: *value, allowed }),
-            Self::Table(rows) => {
-                if let Some(row) = rows.iter().find(|row| !fits(row[1])) {
-                    return Err(TableError::Value { value: row[1], allowed });
-                }
-                if let Some(row) = rows.iter().find(|row| !(0.0..=1e6).contains(&row[0])) {
-                    return Err(TableError::Temperature { value: row[0] });
-                }
-                let (Some(first), Some(last), true) = (rows.first(), rows.last(), rows.len() > 1) else {
-                    return Err(TableError::Short { rows: rows.len() });
-                };
-                let rising = |pair: &&[[f64; 2]]| pair[0][0] < pair[1][0];
-                if let Some(pair) = rows.windows(2).find(|pair| !rising(pair)) {
-                    return Err(TableError::Order { first: pair[0][0], second: pair[1][0] });
-                }
-                let known = [first[0], last[0]];
-                match known[0] <= range[0] && known[1] >= range[1] {
-                    true => Ok(()),
-                    false => Err(TableError::Range { known, wanted: range }),
-                }
-            }
+        let rows = match self {
+            Self::Constant(value) if fits(*value) => return Ok(()),
+            Self::Constant(value) => return wrong(number(*value), &range(values)),
+            Self::Table(rows) => rows,
+        };
+        if let Some(row) = rows.iter().find(|row| !fits(row[1])) {
+            return wrong(number(row[1]), &range(values));
         }
+        if let Some(row) = rows.iter().find(|row| !(0.0..=1e6).contains(&row[0])) {
+            return wrong(format!("a table with temperature {} K", number(row[0])), "0 to 1000000 K");
+        }
+        let (Some(first), Some(last), true) = (rows.first(), rows.last(), rows.len() > 1) else {
+            return wrong(format!("{} rows", rows.len()), "two at least");
+        };
+        let rising = |pair: &&[[f64; 2]]| pair[0][0] < pair[1][0];
+        if let Some(pair) = rows.windows(2).find(|pair| !rising(pair)) {
+            let [a, b] = [pair[0][0], pair[1][0]].map(number);
+            return wrong(format!("temperatures {a} K and {b} K in this order"), "rising temperatures");
+        }
+        if first[0] <= wanted[0] && last[0] >= wanted[1] {
+            return Ok(());
+        }
+        let span = |ends: [f64; 2]| format!("{} K to {} K", number(ends[0]), number(ends[1]));
+        let allowed = format!("a table that covers {}, the temperatures of the run", span(wanted));
+        wrong(format!("known from {}", span([first[0], last[0]])), &allowed)
     }
 
     /// The value at a temperature \[K\]; beyond the ends of a table, on the line through its last two rows.
@@ -124,14 +109,15 @@ mod tests {
     fn bad_tables_are_refused() {
         let table = Property::Table(vec![[300.0, 60.0], [400.0, 56.0]]);
         assert_eq!(table.check([300.0, 400.0], VALUES), Ok(()));
-        let text = table.check([293.0, 326.0], VALUES).unwrap_err().to_string();
-        assert!(text.starts_with("known from 300 K to 400 K") && text.contains("293 K to 326 K"), "{text}");
-        let order = Property::Table(vec![[400.0, 60.0], [300.0, 56.0]]);
-        assert!(matches!(order.check([300.0, 301.0], VALUES), Err(TableError::Order { .. })));
-        let short = Property::Table(vec![[1.0, 2.0]]);
-        assert_eq!(short.check([1.0, 2.0], VALUES), Err(TableError::Short { rows: 1 }));
-        let hot = Property::Table(vec![[300.0, 60.0], [f64::INFINITY, 56.0]]);
-        assert!(matches!(hot.check([300.0, 301.0], VALUES), Err(TableError::Temperature { .. })));
+        let (value, allowed) = table.check([293.0, 326.0], VALUES).unwrap_err();
+        assert_eq!(value, "known from 300 K to 400 K");
+        assert!(allowed.contains("293 K to 326 K"), "{allowed}");
+        let value = |rows: Vec<[f64; 2]>| Property::Table(rows).check([300.0, 301.0], VALUES).unwrap_err().0;
+        let falling = value(vec![[400.0, 60.0], [300.0, 56.0]]);
+        assert_eq!(falling, "temperatures 400 K and 300 K in this order");
+        assert_eq!(value(vec![[1.0, 2.0]]), "1 rows");
+        let hot = value(vec![[300.0, 60.0], [f64::INFINITY, 56.0]]);
+        assert_eq!(hot, "a table with temperature inf K");
         #[derive(Debug, Deserialize)]
         struct Key {
             #[serde(rename = "k")]
@@ -139,7 +125,7 @@ mod tests {
         }
         let text = toml::from_str::<Key>("k = \"x\"").unwrap_err().to_string();
         assert!(text.contains("a number, or a table of pairs [temperature, value]"), "{text}");
-        let negative = Property::Constant(-1.0).check([1.0, 2.0], VALUES).unwrap_err().to_string();
-        assert_eq!(negative, "-1, allowed: 1e-30 to 1e30");
+        let (value, allowed) = Property::Constant(-1.0).check([1.0, 2.0], VALUES).unwrap_err();
+        assert_eq!((value.as_str(), allowed.as_str()), ("-1", "1e-30 to 1e30"));
     }
 }

@@ -141,13 +141,6 @@ impl Enclosure {
         minus(plus(self.centres[to], 1.0, self.lattice.displacement(shift)), self.centres[from])
     }
 
-    /// Area of a flat wall \[m²\], if it is as large as the cell that repeats itself next to it.
-    pub fn wall_area(&self, wall: usize) -> Option<f64> {
-        let Surface::Flat { .. } = self.walls[wall].surface else { return None };
-        let [a, b, _] = self.lattice.edges;
-        (self.periodic == [true, true, false]).then(|| length(cross(a, b)))
-    }
-
     /// A random point of the surface of a sphere.
     pub fn on_sphere(&self, sphere: usize, random: &mut Random) -> Spot {
         let (up, angle) = (random.uniform(-1.0, 1.0), random.uniform(0.0, TAU));
@@ -155,14 +148,6 @@ impl Enclosure {
         let normal = [across * libm::cos(angle), across * libm::sin(angle), up];
         let point = plus(self.centres[sphere], self.radii[sphere], normal);
         Spot { body: Body::Sphere(sphere as u32), shift: [0; 3], point, normal }
-    }
-
-    /// A random point of a flat wall, as far as the cell goes.
-    pub fn on_wall(&self, wall: usize, random: &mut Random) -> Spot {
-        let [u, v] = [(); 2].map(|()| random.uniform(0.0, 1.0));
-        let over = self.lattice.point([u, v, 0.0]);
-        let (distance, normal) = self.walls[wall].foot(over);
-        Spot { body: Body::Wall(wall as u32), shift: [0; 3], point: plus(over, -distance, normal), normal }
     }
 
     /// Follows a ray from a spot until it is absorbed. `absorbed`: the share that a body absorbs, 1 for [`Body::Open`]. Surfaces emit and

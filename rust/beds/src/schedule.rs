@@ -1,6 +1,6 @@
 //! A quantity that is given over time.
 
-use msdd_engine::message::number;
+use msdd_engine::message::{number, range};
 use serde::{Deserialize, Serialize};
 
 /// One number, or a table of pairs (time \[s\], value), straight in between and constant before and after.
@@ -12,13 +12,13 @@ pub enum Schedule {
 }
 
 impl Schedule {
-    /// Value and what is allowed of the first entry that is wrong: times rise, values lie in `range`.
+    /// Value and what is allowed of the first entry that is wrong: times rise, values lie in `values`.
     ///
     /// # Errors
     /// As said.
-    pub fn check(&self, range: [f64; 2]) -> Result<(), (String, String)> {
-        let inside = |value: f64| value >= range[0] && value <= range[1];
-        let allowed = || format!("{} to {}", number(range[0]), number(range[1]));
+    pub fn check(&self, values: [f64; 2]) -> Result<(), (String, String)> {
+        let inside = |value: f64| (values[0]..=values[1]).contains(&value);
+        let allowed = || range(values);
         match self {
             Self::Constant(value) if inside(*value) => Ok(()),
             Self::Constant(value) => Err((number(*value), allowed())),

@@ -29,6 +29,14 @@ pub struct Rest {
     pub steps: u64,
 }
 
+impl Rest {
+    /// What is listed of a stage; an error of one that still moves.
+    pub(crate) fn of(self, stage: &'static str) -> Result<(&'static str, Self), BedError> {
+        let Self { at_rest, kinetic, time, .. } = self;
+        if at_rest { Ok((stage, self)) } else { Err(BedError::NotSettled { stage, time, kinetic }) }
+    }
+}
+
 /// Kinetic energy over Σ m g r, without the grains of the highest energy, one in a thousand: a grain that rocks in a hollow of the
 /// surface does so long after all others are at rest.
 pub fn agitation(simulation: &Simulation, gravity: f64) -> f64 {

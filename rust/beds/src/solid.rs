@@ -33,6 +33,13 @@ pub struct Roughness {
     pub hardness: f64,
 }
 
+impl Roughness {
+    /// None: smooth, or not known.
+    pub fn given(height_over_slope: Option<f64>, hardness: Option<f64>) -> Option<Self> {
+        Some(Self { height_over_slope: height_over_slope?, hardness: hardness? })
+    }
+}
+
 /// The material of the spheres, as far as heat is concerned.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Solid {

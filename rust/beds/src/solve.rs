@@ -7,6 +7,26 @@ pub fn inner(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
+/// Adds to `y` what flows out of each node that is free, by links of two nodes and a conductance, which `factor` multiplies, at the
+/// values `x` of the nodes.
+pub fn add_flows(
+    links: &[(usize, usize, f64)],
+    factor: f64,
+    free: impl Fn(usize) -> bool,
+    x: &[f64],
+    y: &mut [f64],
+) {
+    for &(i, j, g) in links {
+        let flow = factor * g * (x[i] - x[j]);
+        if free(i) {
+            y[i] += flow;
+        }
+        if free(j) {
+            y[j] -= flow;
+        }
+    }
+}
+
 /// Conjugate gradients with the diagonal as the preconditioner: x of A x = r, from x = 0. `apply` adds A d to its second
 /// argument, which comes as 0. `residual` is r, and on return what is left of it. None when the iteration does not end:
 /// numbers that are not finite, or of too unequal size.

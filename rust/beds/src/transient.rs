@@ -12,7 +12,7 @@
 //! estimate of the error by which steps are chosen. It is that of a method of first order, so the true error is smaller.
 
 use crate::network::{Conductances, Network, volume};
-use crate::solve::conjugate_gradients;
+use crate::solve::{add_flows, conjugate_gradients};
 
 /// γ.
 const GAMMA: f64 = 1.0 - std::f64::consts::FRAC_1_SQRT_2;
@@ -181,15 +181,7 @@ impl<'a> Transient<'a> {
             for k in 0..x.len() {
                 y[k] += heat[k] * x[k];
             }
-            for &(i, j, g) in &conductances.links {
-                let flow = dt * g * (x[i] - x[j]);
-                if free(i) {
-                    y[i] += flow;
-                }
-                if free(j) {
-                    y[j] -= flow;
-                }
-            }
+            add_flows(&conductances.links, dt, free, x, y);
             for &(i, _, g) in conductances.plates.iter().filter(|&&(i, _, _)| free(i)) {
                 y[i] += dt * g * x[i];
             }

@@ -128,14 +128,9 @@ pub fn kelvin<'de, D: Deserializer<'de>>(of: D) -> Result<f64, D::Error> {
 ///
 /// # Errors
 /// Those of [`Given::value`].
-pub fn kelvin_over_time_or_none<'de, D: Deserializer<'de>>(of: D) -> Result<Option<Schedule>, D::Error> {
-    kelvin_over_time(of).map(Some)
-}
-
-/// For serde: a temperature over time \[K\].
-pub fn kelvin_over_time<'de, D: Deserializer<'de>>(of: D) -> Result<Schedule, D::Error> {
+pub fn kelvin_over_time<'de, D: Deserializer<'de>>(of: D) -> Result<Option<Schedule>, D::Error> {
     let read = |given: &Given| given.value(&TEMPERATURE).map_err(de::Error::custom);
-    Ok(match GivenTable::deserialize(of)? {
+    Ok(Some(match GivenTable::deserialize(of)? {
         GivenTable::One(one) => Schedule::Constant(read(&one)?),
         GivenTable::Table(rows) => {
             let row = |[time, value]: &[Given; 2]| match time {
@@ -146,7 +141,7 @@ pub fn kelvin_over_time<'de, D: Deserializer<'de>>(of: D) -> Result<Schedule, D:
             };
             Schedule::Table(rows.iter().map(row).collect::<Result<_, _>>()?)
         }
-    })
+    }))
 }
 
 #[cfg(test)]
@@ -185,10 +180,10 @@ mod tests {
             #[serde(deserialize_with = "kelvin")]
             a: f64,
             #[serde(deserialize_with = "kelvin_over_time")]
-            b: Schedule,
+            b: Option<Schedule>,
         }
         let keys: Keys = toml::from_str("a = \"80C\"\nb = [[0.0, 293.15], [5, \"100 C\"]]").unwrap();
-        assert_eq!((keys.a, keys.b), (353.15, Schedule::Table(vec![[0.0, 293.15], [5.0, 373.15]])));
+        assert_eq!((keys.a, keys.b), (353.15, Some(Schedule::Table(vec![[0.0, 293.15], [5.0, 373.15]]))));
         let wrong = toml::from_str::<Keys>("a = \"80 mm\"\nb = 1.0").err().unwrap().to_string();
         assert!(wrong.contains("\"80 mm\", allowed: a temperature in K, C"), "{wrong}");
     }

@@ -1,6 +1,6 @@
 //! Conductivity of crystals against closed forms, and of a packing against what must hold for any network.
 
-use msdd_beds::conductances::{Link, contact_links, gas_links};
+use msdd_beds::conductances::{Link, contact_links, gas_links, near_pairs};
 use msdd_beds::conductivity::{Conductivity, conductivity, mean};
 use msdd_beds::effective::{closure_error, pair_factor, poor_spheres};
 use msdd_beds::gas::{Gas, gas_conductance};
@@ -62,7 +62,7 @@ fn check(simulation: &Simulation, factor: f64) {
     let least = |radius: f64| AIR.least_distance(radius, STEEL.conductivity);
     let by_gas = gas_conductance(AIR.conductivity, RADIUS, least(RADIUS));
     let contacts = solve(simulation, &contact_links(simulation, &STEEL));
-    let gas = solve(simulation, &gas_links(simulation, AIR.conductivity, least));
+    let gas = solve(simulation, &gas_links(&near_pairs(simulation), AIR.conductivity, least));
     for (found, pair) in [(contacts, 2.0 * STEEL.conductivity * size), (gas, by_gas)] {
         for row in 0..3 {
             for column in 0..3 {
@@ -130,8 +130,9 @@ fn random_packing() {
     let simulation = pack(&packing).unwrap().simulation;
     let mut both = contact_links(&simulation, &STEEL);
     let contacts = solve(&simulation, &both);
-    let gas =
-        gas_links(&simulation, AIR.conductivity, |radius| AIR.least_distance(radius, STEEL.conductivity));
+    let gas = gas_links(&near_pairs(&simulation), AIR.conductivity, |radius| {
+        AIR.least_distance(radius, STEEL.conductivity)
+    });
     both.extend_from_slice(&gas);
     assert!(gas.len() as f64 > 1.5 * (both.len() - gas.len()) as f64);
     let (gas, both) = (solve(&simulation, &gas), solve(&simulation, &both));
@@ -181,7 +182,9 @@ fn pairs_of_poor_spheres_conduct_as_the_closure_says() {
         for ratio in [2.0, 5.0, 10.0, 20.0] {
             let gas = Gas { conductivity: 1.0, mean_free_path: 0.0, ..AIR };
             let factor = pair_factor(&gas, ratio, 0.5, phi);
-            let links = gas_links(&packed.simulation, factor, |radius| gas.least_distance(radius, ratio));
+            let links = gas_links(&near_pairs(&packed.simulation), factor, |radius| {
+                gas.least_distance(radius, ratio)
+            });
             let found = mean(&solve(&packed.simulation, &links).network);
             let expected = poor_spheres(phi, ratio);
             let error = closure_error(ratio).max(0.02);

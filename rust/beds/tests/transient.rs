@@ -151,7 +151,7 @@ fn a_bed_that_radiates_keeps_its_balance() {
     };
     let stored = |radiates: bool, law: PlateLaw| {
         let network = Network::new(&simulation, materials.clone(), &[Plate { wall: 4, law }]);
-        let network = if radiates { network.radiating(&traced, None, &[4]) } else { network };
+        let network = if radiates { network.radiating(Some(&traced), None, &[4]) } else { network };
         let mut transient = Transient::new(&network, 600.0, vec![1200.0]);
         transient.run_to(20.0, 0.05, &mut 0.1).unwrap();
         let (stored, residual) = (transient.stored(), transient.residual());
@@ -167,7 +167,7 @@ fn a_bed_that_radiates_keeps_its_balance() {
     let table = Some(Property::Table(vec![[600.0, 0.8], [1200.0, 0.4]]));
     let radiating = |emissivity: Option<Property>, t: f64| {
         let network = Network::new(&simulation, Materials { solid_fraction: None, ..materials.clone() }, &[]);
-        let network = network.radiating(&traced, emissivity, &[]);
+        let network = network.radiating(Some(&traced), emissivity, &[]);
         network.conductances(&vec![t; simulation.spheres.len()], &[]).links.last().map_or(0.0, |link| link.2)
     };
     assert_eq!(radiating(table.clone(), 600.0), radiating(None, 600.0));

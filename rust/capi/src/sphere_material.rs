@@ -215,6 +215,6 @@ impl Material {
 
 /// The gas that a key called `key` names.
 pub(crate) fn named(key: &str, name: &str) -> Result<GasName, Failure> {
-    let known = GasName::ALL.into_iter().find(|gas| gas.as_str() == name);
-    known.ok_or_else(|| Failure::argument(key, name, GasName::ALL.map(GasName::as_str).join(", ")))
+    let known = GasName::ALL.into_iter().find(|gas| gas.to_string() == name);
+    known.ok_or_else(|| Failure::argument(key, name, GasName::ALL.map(|gas| gas.to_string()).join(", ")))
 }

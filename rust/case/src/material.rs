@@ -188,7 +188,8 @@ impl Material {
             // Whether it covers the temperatures of a bed is another question.
             let rows = property.rows();
             let covered = [rows.first(), rows.last()].map(|row| row.copied().unwrap_or_default());
-            property.check(covered, key.range).map_err(|error| wrong(key, &error.to_string()))?;
+            let told = |(value, allowed)| wrong(key, &format!("{value}, allowed: {allowed}"));
+            property.check(covered, key.range).map_err(told)?;
             Ok(Some(property))
         };
         let source = keys.source.map_or(String::new(), |source| format!(" ({source})"));

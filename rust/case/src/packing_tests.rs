@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::scenes_for_tests::disc;
-use msdd_rve::database::plan::Plan;
+use msdd_rve::database::{Plan, Recipe};
 
 #[test]
 fn porosities_are_those_of_the_plan_that_the_model_was_trained_with() {

@@ -47,7 +47,7 @@ pub fn temperature_with(gas: GasName, key: &str, value: f64) -> Result<(), CaseE
     let [low, high] = gas.range();
     let high = high.min(1e5);
     allow(key, value, (low..=high).contains(&value), || {
-        let (low, high, gas) = (number(low), number(high), gas.as_str());
+        let (low, high) = (number(low), number(high));
         format!("{low} to {high} K, the table of {gas}; temperatures are in kelvin")
     })
 }

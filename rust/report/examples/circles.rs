@@ -90,7 +90,7 @@ fn paths() -> Vec<(String, Vec<Strains>)> {
     let mut all: Vec<(String, Vec<Strains>)> = PATHS
         .map(|path| {
             let rows = planned(path, 1, &steps, false);
-            (path.as_str().to_string(), rows.iter().map(|row| row.strains).collect())
+            (path.to_string(), rows.iter().map(|row| row.strains).collect())
         })
         .into();
     all.push(("swing".to_string(), swing.map(Strains::thermal).collect()));
@@ -211,7 +211,7 @@ fn tables(model: &dyn Surrogate, runs: &[Run]) {
     println!(
         "paths: rms of stress and K [%], of the law from the discs; of the two packings from each other"
     );
-    for run in runs.iter().filter(|run| PATHS.iter().any(|path| path.as_str() == run.path)) {
+    for run in runs.iter().filter(|run| PATHS.iter().any(|path| path.to_string() == run.path)) {
         let twin = runs.iter().find(|r| r.seed != run.seed && r.packing == run.packing && r.path == run.path);
         let (own, twins) =
             (difference(&law(model, run), &run.states), twin.map(|r| difference(&run.states, &r.states)));

@@ -10,9 +10,10 @@
 #[path = "../../beds/examples/direct/mod.rs"]
 mod direct;
 
+use direct::ray_links::ray_links;
 use direct::voxels::Ball;
 use direct::walk_on_spheres::Room;
-use msdd_beds::conductances::{NEAR, gas_links};
+use msdd_beds::conductances::{NEAR, gas_links, near_pairs};
 use msdd_beds::conductivity::{conductivity, mean};
 use msdd_beds::exchange::{Emissivities, Tracing, exchange};
 use msdd_beds::gas::{gas_conductance, unequal_conductance};
@@ -101,7 +102,8 @@ fn states(spheres: usize, seeds: u64, friction: f64) -> Result<(), Box<dyn Error
             );
             for diameter in [m.mean, 1.0] {
                 for number in GAS_NUMBERS {
-                    let links = gas_links(&simulation, 1.0, |_| 0.5 * diameter * libm::exp(-number));
+                    let links =
+                        gas_links(&near_pairs(&simulation), 1.0, |_| 0.5 * diameter * libm::exp(-number));
                     print!(
                         ",{:.4}",
                         mean(&conductivity(&links, spheres, volume).ok_or("no solution")?.network)
@@ -111,7 +113,8 @@ fn states(spheres: usize, seeds: u64, friction: f64) -> Result<(), Box<dyn Error
             let enclosure = Enclosure::new(&simulation);
             let surfaces = Emissivities { spheres: EMISSIVITY, walls: Vec::new() };
             let traced = exchange(&enclosure, &surfaces, &Tracing { rays: RAYS, seed: 1, threads: 1 })?;
-            let found = conductivity(&traced.links(&enclosure), spheres, volume).ok_or("no solution")?;
+            let found =
+                conductivity(&ray_links(&traced, &enclosure), spheres, volume).ok_or("no solution")?;
             println!(",{:.4}", mean(&found.affine));
         }
     }

@@ -1,7 +1,6 @@
 //! Straining of a packed RVE: radii grow or shrink in fixed walls, with stops (section 2.4); or the walls move, too.
 
 use crate::homogenise::{Averages, homogenise};
-use crate::pack::Packed;
 use crate::region::RegionKind;
 use crate::scale::rate_factor;
 use crate::settle::{KEEP_EVERY, Relaxation, Settled, UNBALANCED_LIMIT, settle_to};
@@ -67,6 +66,11 @@ impl Strains {
         Self { thermal: strain, ..Self::default() }
     }
 
+    /// Thermal, along x, along y, shear.
+    pub fn parts(self) -> [f64; 4] {
+        [self.thermal, self.xx, self.yy, self.xy]
+    }
+
     /// The strains relative to the start after these and then `next`, which is relative to the state in between.
     pub fn then(self, next: Self) -> Self {
         let compound = |a: f64, b: f64| a + b + a * b;
@@ -96,18 +100,6 @@ pub struct Ramp {
     pub failure: Option<RveError>,
 }
 
-/// One monotone ramp of thermal strain from the packed state through `stops`: strains relative to the packed state, all
-/// of one sign, growing in magnitude. The RVE relaxes at each stop before it is averaged.
-///
-/// # Errors
-/// [`RveError::Parameter`] for stops that are not allowed. A failure during the ramp is in [`Ramp::failure`].
-pub fn expand(packed: &Packed, stops: &[f64]) -> Result<Ramp, RveError> {
-    check_monotone(stops)?;
-    let path: Vec<Strains> = stops.iter().copied().map(Strains::thermal).collect();
-    let protocol = Protocol::usual(&packed.simulation);
-    follow(&mut packed.simulation.clone(), &path, protocol, |_, _| ())
-}
-
 /// Follows a path of thermal strain and wall strain from stop to stop, with straight lines in between. The simulation
 /// ends at the last stop reached; `visit` is called with it at each stop. After a failure,
 /// [`Simulation::take_last_good`] returns the last good state.
@@ -123,8 +115,7 @@ pub fn follow(
 ) -> Result<Ramp, RveError> {
     check(path, protocol, rate_factor(&simulation.material, simulation.mean_radius()))?;
     if let Some(strains) = path.iter().find(|s| s.xy != 0.0 && simulation.periodic.is_none()) {
-        let allowed = "0 between walls; shear needs a periodic box".to_string();
-        return Err(RveError::Parameter { key: "xy", value: strains.xy.to_string(), allowed });
+        return RveError::parameter("xy", strains.xy, "0 between walls; shear needs a periodic box");
     }
     simulation.reset_strain();
     simulation.keep_last_good(KEEP_EVERY);
@@ -153,41 +144,19 @@ fn check(path: &[Strains], protocol: Protocol, factor: f64) -> Result<(), RveErr
     {
         if !(1e-6 * factor..=100.0 * factor).contains(&rate) {
             let allowed =
-                "1e-6 to 100 1/s for the paper's grains, others as their contacts swing faster or slower"
-                    .to_string();
-            return Err(RveError::Parameter { key, value: rate.to_string(), allowed });
+                "1e-6 to 100 1/s for the paper's grains, others as their contacts swing faster or slower";
+            return RveError::parameter(key, rate, allowed);
         }
     }
     if !(1e-12..=1.0).contains(&protocol.unbalanced_limit) {
-        let value = protocol.unbalanced_limit.to_string();
-        return Err(RveError::Parameter {
-            key: "unbalanced limit",
-            value,
-            allowed: "1e-12 to 1".to_string(),
-        });
+        return RveError::parameter("unbalanced limit", protocol.unbalanced_limit, "1e-12 to 1");
     }
     let values =
         path.iter().flat_map(|s| [("thermal strain", s.thermal), ("xx", s.xx), ("yy", s.yy), ("xy", s.xy)]);
     for (key, value) in values {
         if !(-0.2..=0.2).contains(&value) {
-            return Err(RveError::Parameter {
-                key,
-                value: value.to_string(),
-                allowed: "-0.2 to 0.2".to_string(),
-            });
+            return RveError::parameter(key, value, "-0.2 to 0.2");
         }
-    }
-    Ok(())
-}
-
-fn check_monotone(stops: &[f64]) -> Result<(), RveError> {
-    let mut previous = 0.0f64;
-    for &stop in stops {
-        if stop.abs() <= previous.abs() || stop * previous < 0.0 {
-            let allowed = "one sign, growing in magnitude".to_string();
-            return Err(RveError::Parameter { key: "strains", value: format!("{stops:?}"), allowed });
-        }
-        previous = stop;
     }
     Ok(())
 }

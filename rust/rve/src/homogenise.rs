@@ -5,10 +5,9 @@ use crate::network::Network;
 use crate::region::{Cut, Polygon, RegionKind, contact_share, region};
 use msdd_dem::heat::chord;
 use msdd_dem::{Contact, Simulation};
-use serde::{Deserialize, Serialize};
 
 /// Macroscopic state of an assembly. Compression positive.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Averages {
     /// η [-], overlaps counted once, of the region.
     pub porosity: f64,

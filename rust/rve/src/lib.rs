@@ -3,7 +3,7 @@
 //! | module | what |
 //! |---|---|
 //! | [`pack`](mod@pack) | random discs; walls close until a target porosity; relaxation |
-//! | [`expand`](mod@expand) | ramps of thermal strain and wall strain, with stops |
+//! | [`expand`] | ramps of thermal strain and wall strain, with stops |
 //! | [`place`] | seeded random numbers, random loose discs to start from |
 //! | [`settle`] | relaxation to static equilibrium, and how it ended |
 //! | [`region`] | the averaging region: a convex polygon |
@@ -44,7 +44,7 @@ pub mod stopwatch;
 pub mod vtk;
 pub mod window;
 
-pub use expand::{Protocol, Ramp, Stop, Strains, expand, follow};
+pub use expand::{Protocol, Ramp, Stop, Strains, follow};
 pub use homogenise::{Averages, homogenise, homogenise_affine_in, homogenise_in};
 pub use msdd_dem::{Material, Simulation};
 pub use pack::{
@@ -72,4 +72,15 @@ pub enum RveError {
     Cell(#[from] msdd_dem::periodic::SmallCell),
     #[error(transparent)]
     Failure(#[from] msdd_dem::Failure),
+}
+
+impl RveError {
+    /// A parameter that is not allowed.
+    pub(crate) fn parameter<T>(
+        key: &'static str,
+        value: impl ToString,
+        allowed: impl Into<String>,
+    ) -> Result<T, Self> {
+        Err(Self::Parameter { key, value: value.to_string(), allowed: allowed.into() })
+    }
 }

@@ -64,12 +64,6 @@ pub enum Boundary {
     Periodic,
 }
 
-impl Boundary {
-    fn is_walls(&self) -> bool {
-        *self == Self::Walls
-    }
-}
-
 /// What a specification may have.
 const DISCS: [f64; 2] = [10.0, 1_000_000.0];
 const POROSITIES: [f64; 2] = [0.01, 0.3];
@@ -77,8 +71,7 @@ const RADII: [f64; 2] = [1e-30, 1e30];
 const RADII_ABOVE: &str = "radius_min to 10 radius_min";
 
 /// Specification of a packing.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct PackingSpec {
     /// Number of grains. Allowed: `DISCS`.
     pub discs: usize,
@@ -94,10 +87,8 @@ pub struct PackingSpec {
     /// To this \[m\]. Allowed: `RADII_ABOVE`.
     pub radius_max: f64,
     /// What is around the box.
-    #[serde(default, skip_serializing_if = "Boundary::is_walls")]
     pub boundary: Boundary,
     /// How grains come to rest.
-    #[serde(default)]
     pub relaxation: Relaxation,
 }
 
@@ -141,16 +132,13 @@ impl Preparation {
     /// `factor`: ratio of the speeds suitable for these grains to those for the paper's grains.
     fn check(&self, factor: f64) -> Result<(), RveError> {
         if !(0.1..=10.0).contains(&self.aspect) {
-            let value = self.aspect.to_string();
-            return Err(RveError::Parameter { key: "aspect", value, allowed: "0.1 to 10".to_string() });
+            return RveError::parameter("aspect", self.aspect, "0.1 to 10");
         }
         let allowed = "1e-4 to 10 m/s for the paper's grains, others as a push runs faster or slower in them";
         match self.wall_speed {
-            Some(speed) if !(1e-4 * factor..=10.0 * factor).contains(&speed) => Err(RveError::Parameter {
-                key: "wall speed",
-                value: speed.to_string(),
-                allowed: allowed.to_string(),
-            }),
+            Some(speed) if !(1e-4 * factor..=10.0 * factor).contains(&speed) => {
+                RveError::parameter("wall speed", speed, allowed)
+            }
             _ => Ok(()),
         }
     }
@@ -175,20 +163,18 @@ pub struct Stopped {
 impl PackingSpec {
     /// Checks the specification; the error names key, value and allowed range.
     pub fn check(&self) -> Result<(), RveError> {
-        let parameter =
-            |key, value: String, allowed: String| Err(RveError::Parameter { key, value, allowed });
         let inside = |value: f64, [least, most]: [f64; 2]| (least..=most).contains(&value);
         if !inside(self.discs as f64, DISCS) {
-            return parameter("discs", self.discs.to_string(), range(DISCS));
+            return RveError::parameter("discs", self.discs, range(DISCS));
         }
         if !inside(self.porosity, POROSITIES) {
-            return parameter("porosity", self.porosity.to_string(), range(POROSITIES));
+            return RveError::parameter("porosity", self.porosity, range(POROSITIES));
         }
         if !inside(self.radius_min, RADII) {
-            return parameter("radius_min", self.radius_min.to_string(), range(RADII) + " m");
+            return RveError::parameter("radius_min", self.radius_min, range(RADII) + " m");
         }
         if !(self.radius_max >= self.radius_min && self.radius_max <= 10.0 * self.radius_min) {
-            return parameter("radius_max", self.radius_max.to_string(), RADII_ABOVE.to_string());
+            return RveError::parameter("radius_max", self.radius_max, RADII_ABOVE);
         }
         Ok(())
     }

@@ -1,28 +1,11 @@
 //! Loose random discs to start from: random radii at random places without overlap (random sequential addition).
 
 use crate::RveError;
+pub use msdd_beds::random::Random;
 use msdd_dem::Disc;
-use rand_chacha::ChaCha8Rng;
-use rand_chacha::rand_core::{Rng, SeedableRng};
 
 /// Attempts per disc before giving up; at the density used in `pack` the last disc needs about ten.
 const ATTEMPTS: u32 = 100_000;
-
-/// Seeded stream of uniform random numbers. The output of ChaCha8 is fixed by its definition, so the same seed gives
-/// the same numbers in every version of this program.
-pub struct Random(ChaCha8Rng);
-
-impl Random {
-    pub fn new(seed: u64) -> Self {
-        Self(ChaCha8Rng::seed_from_u64(seed))
-    }
-
-    /// Uniform in [low, high).
-    pub fn uniform(&mut self, low: f64, high: f64) -> f64 {
-        let unit = (self.0.next_u64() >> 11) as f64 / (1u64 << 53) as f64;
-        low + (high - low) * unit
-    }
-}
 
 /// `count` radii, uniform in [low, high) \[m\].
 pub fn radii(random: &mut Random, count: usize, low: f64, high: f64) -> Vec<f64> {

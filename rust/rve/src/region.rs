@@ -18,19 +18,10 @@ pub enum RegionKind {
     Cell,
 }
 
-impl RegionKind {
-    /// The name in records.
-    pub fn as_str(self) -> &'static str {
-        match self {
-            Self::Hull => "hull",
-            Self::Inset => "inset",
-            Self::Cell => "cell",
-        }
-    }
-}
+msdd_beds::named!(RegionKind);
 
 /// How contacts that cross the border of the region count in K and σ.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Cut {
     /// Weighted by the share of the branch that lies inside.

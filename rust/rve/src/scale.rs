@@ -13,16 +13,17 @@ const RADIUS: f64 = 5e-3;
 
 /// Factor of speeds [-] for grains of the mean radius `radius` \[m\].
 pub fn speed_factor(material: &Material, radius: f64) -> f64 {
-    let paper = Material::default();
-    let squared = |m: &Material, r: f64| m.young_modulus * r / m.density;
-    root_as_power_of_two(squared(material, radius) / squared(&paper, RADIUS))
+    factor(material, radius, |m, r| m.young_modulus * r / m.density)
 }
 
 /// Factor of strain rates and of the drag [-] for grains of the mean radius `radius` \[m\].
 pub fn rate_factor(material: &Material, radius: f64) -> f64 {
-    let paper = Material::default();
-    let squared = |m: &Material, r: f64| m.young_modulus / (m.density * r);
-    root_as_power_of_two(squared(material, radius) / squared(&paper, RADIUS))
+    factor(material, radius, |m, r| m.young_modulus / (m.density * r))
+}
+
+/// Root of a quantity over that of the paper's grains.
+fn factor(material: &Material, radius: f64, squared: fn(&Material, f64) -> f64) -> f64 {
+    root_as_power_of_two(squared(material, radius) / squared(&Material::default(), RADIUS))
 }
 
 /// The power of two nearest to √`square`. Rounding the factor by up to √2 is harmless, since the rates are slow enough.

@@ -43,15 +43,7 @@ pub enum Outcome {
     Unjammed,
 }
 
-impl Outcome {
-    pub fn as_str(self) -> &'static str {
-        match self {
-            Self::Settled => "settled",
-            Self::Capped => "capped",
-            Self::Unjammed => "unjammed",
-        }
-    }
-}
+msdd_beds::named!(Outcome);
 
 /// Report of a relaxation.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -6,7 +6,6 @@ use crate::settle::Relaxation;
 use crate::stopwatch::{self, Stage};
 use crate::{RveError, Simulation};
 use msdd_dem::Side;
-use serde::{Deserialize, Serialize};
 
 /// Speed of the walls [m/s] for the paper's grains; as in packing. The grains come to rest at each stop.
 const SLIP_SPEED: f64 = 0.03;
@@ -16,27 +15,6 @@ const NO_SLIP: f64 = 2e-10;
 const LARGEST_SLIP: f64 = 200.0;
 /// Largest number of steps between two updates of the time step.
 const RUN: u64 = 50;
-
-/// Directions in which bottom and top move.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Slide {
-    /// Both towards +x: the end walls hold the grains back, as in a box whose ends are heated differently.
-    #[default]
-    Same,
-    /// Bottom towards −x, top towards +x: the grains are sheared as well.
-    Opposite,
-}
-
-impl Slide {
-    /// Direction of bottom and top along x.
-    fn directions(self) -> [f64; 2] {
-        match self {
-            Self::Same => [1.0, 1.0],
-            Self::Opposite => [-1.0, 1.0],
-        }
-    }
-}
 
 /// Friction and slip of the sliding walls, mean of bottom and top.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -48,31 +26,31 @@ pub struct Sliding {
     pub slip: f64,
 }
 
-/// Moves bottom and top along x by the given displacements \[m\], counted from the present state and growing. The
-/// assembly relaxes at each stop; `visit` is called there with friction and slip.
+/// Moves bottom and top towards +x by the given displacements \[m\], counted from the present state and growing: the end
+/// walls hold the grains back, as in a box whose ends are heated differently. The assembly relaxes at each stop; `visit` is called there with friction and slip.
 ///
 /// # Errors
 /// [`RveError::Parameter`] for displacements that are not allowed. A failure on the way is in [`Ramp::failure`].
 pub fn slide(
     simulation: &mut Simulation,
     slips: &[f64],
-    (slide, relaxation): (Slide, Relaxation),
+    relaxation: Relaxation,
     mut visit: impl FnMut(&Stop, Sliding),
 ) -> Result<Ramp, RveError> {
     let largest = LARGEST_SLIP * simulation.mean_radius();
     let growing =
         slips.windows(2).all(|pair| pair[0] < pair[1]) && slips.iter().all(|&s| s > 0.0 && s <= largest);
     if !growing {
-        let allowed = "growing, above 0, at most 200 mean radii [m]".to_string();
-        return Err(RveError::Parameter { key: "slips", value: format!("{slips:?}"), allowed });
+        let allowed = "growing, above 0, at most 200 mean radii [m]";
+        return RveError::parameter("slips", format!("{slips:?}"), allowed);
     }
     let start: Vec<f64> = simulation.discs.iter().map(|disc| disc.x).collect();
     let mut ramp = Ramp { stops: Vec::new(), failure: None };
     let mut done = 0.0;
     for &slip in slips {
-        match slip_by(simulation, slip - done, slide, relaxation) {
+        match slip_by(simulation, slip - done, relaxation) {
             Ok(stop) => {
-                visit(&stop, sliding(simulation, slide, slip, &start));
+                visit(&stop, sliding(simulation, slip, &start));
                 ramp.stops.push(stop);
                 done = slip;
             }
@@ -85,12 +63,7 @@ pub fn slide(
     Ok(ramp)
 }
 
-fn slip_by(
-    simulation: &mut Simulation,
-    way: f64,
-    slide: Slide,
-    relaxation: Relaxation,
-) -> Result<Stop, RveError> {
+fn slip_by(simulation: &mut Simulation, way: f64, relaxation: Relaxation) -> Result<Stop, RveError> {
     let since = simulation.steps;
     stopwatch::time(Stage::Strain, || -> Result<(), RveError> {
         let mut left = way;
@@ -99,8 +72,7 @@ fn slip_by(
         while left > NO_SLIP * radius {
             let steps = (left / (wall_speed * simulation.time_step)).ceil();
             let speed = left / (steps * simulation.time_step);
-            let [bottom, top] = slide.directions();
-            simulation.walls.tangential_velocity = [0.0, 0.0, speed * bottom, speed * top];
+            simulation.walls.tangential_velocity = [0.0, 0.0, speed, speed];
             let begin = simulation.time;
             simulation.run((steps as u64).min(RUN))?;
             left -= speed * (simulation.time - begin);
@@ -112,9 +84,9 @@ fn slip_by(
 
 /// Friction and slip after a displacement `way` [m] of the walls; `start` has x of the discs [m] before it. All values
 /// are 0 when a wall has no normal force.
-fn sliding(simulation: &Simulation, slide: Slide, way: f64, start: &[f64]) -> Sliding {
+fn sliding(simulation: &Simulation, way: f64, start: &[f64]) -> Sliding {
     let mut mean = Sliding::default();
-    for (side, direction) in [Side::Bottom, Side::Top].into_iter().zip(slide.directions()) {
+    for side in [Side::Bottom, Side::Top] {
         let (mut normal, mut tangential, mut moved) = (0.0, 0.0, 0.0);
         simulation.for_each_contact(|contact| {
             if contact.i == Err(side) {
@@ -122,8 +94,8 @@ fn sliding(simulation: &Simulation, slide: Slide, way: f64, start: &[f64]) -> Sl
                 // Force on the disc: normal inwards, tangential along the motion of the wall that drags it.
                 let inwards = side.normal()[1] * y;
                 normal += inwards;
-                tangential += direction * x;
-                moved += inwards * direction * (simulation.discs[contact.j].x - start[contact.j]);
+                tangential += x;
+                moved += inwards * (simulation.discs[contact.j].x - start[contact.j]);
             }
         });
         if normal > 0.0 {
@@ -135,7 +107,7 @@ fn sliding(simulation: &Simulation, slide: Slide, way: f64, start: &[f64]) -> Sl
 }
 
 /// Friction at walls that have not moved: what the packing procedure left.
-pub fn at_rest(simulation: &Simulation, slide: Slide) -> Sliding {
+pub fn at_rest(simulation: &Simulation) -> Sliding {
     let start: Vec<f64> = simulation.discs.iter().map(|disc| disc.x).collect();
-    sliding(simulation, slide, 0.0, &start)
+    sliding(simulation, 0.0, &start)
 }

@@ -13,7 +13,7 @@
 //!
 //! `dimension` is 2, or absent, for discs; 3 for spheres, whose states are in [`crate::spheres::state`].
 
-use crate::state_file::{ANY, LARGEST, POSITIVE, check_column, check_digest, digest};
+use crate::state_file::{ANY, LARGEST, POSITIVE, check_column, check_lengths, digest, read};
 pub use crate::state_file::{SCHEMA, StateError, dimension};
 use msdd_dem::failure::LARGEST_OVERLAP;
 use msdd_dem::{Disc, Material, Periodic, RunState, Side, Simulation, Walls};
@@ -28,7 +28,7 @@ struct File {
     /// `msdd-state-1`.
     schema: String,
     /// 2, or absent.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     dimension: Option<u32>,
     /// The grains, as in plans of databases.
     material: Material,
@@ -41,10 +41,10 @@ struct File {
     #[serde(default)]
     contacts: Contacts,
     /// What else is required to go on. Absent in states from other programs: the assembly is then at rest and at zero strain.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     run: Option<Run>,
     /// SHA-256 over the values; take it out after editing a file by hand.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     checksum: Option<String>,
 }
 
@@ -63,7 +63,7 @@ struct Bounds {
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     periodic: bool,
     /// Of a periodic box: way of the top along x; absent: 0 \[m\].
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     shear_offset: Option<f64>,
 }
 
@@ -79,16 +79,12 @@ struct Particles {
     /// Mass \[kg\].
     mass: Vec<f64>,
     /// Velocity along x [m/s].
-    #[serde(default)]
     vx: Option<Vec<f64>>,
     /// Velocity along y [m/s].
-    #[serde(default)]
     vy: Option<Vec<f64>>,
     /// Rotation to the left [rad/s].
-    #[serde(default)]
     angular_velocity: Option<Vec<f64>>,
     /// Temperature \[K\].
-    #[serde(default)]
     temperature: Option<Vec<f64>>,
 }
 
@@ -102,10 +98,10 @@ struct Contacts {
     /// Force on j along t = (−n_y, n_x), n from i to j \[N\].
     tangential_force: Vec<f64>,
     /// Of a periodic box: the contact is with the image of j moved by so many boxes along x; absent: 0.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     shift_x: Option<Vec<i32>>,
     /// The same along y.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     shift_y: Option<Vec<i32>>,
 }
 
@@ -131,7 +127,7 @@ struct Run {
     /// The same along them [m/s].
     wall_tangential_velocity: [f64; 4],
     /// Of a periodic box [1/s].
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     shear_rate: Option<f64>,
 }
 
@@ -218,13 +214,7 @@ fn contacts(simulation: &Simulation) -> Contacts {
 /// # Errors
 /// [`StateError`] names what is wrong, the particle or contact, and the value.
 pub fn from_json(text: &str) -> Result<Simulation, StateError> {
-    let found = dimension(text)?;
-    if found != 2 {
-        return Err(StateError::Dimension { found, allowed: "2, the state of discs" });
-    }
-    let mut file: File = serde_json::from_str(text)?;
-    let checksum = file.checksum.take();
-    check_digest(&file, checksum)?;
+    let file: File = read(text, (2, "2, the state of discs"), |file: &mut File| file.checksum.take())?;
     file.material.check()?;
     let walls = walls(file.bounds)?;
     let discs = discs(&file.particles)?;
@@ -276,16 +266,10 @@ fn discs(columns: &Particles) -> Result<Vec<Disc>, StateError> {
     for (column, values, allowed) in &table {
         check_column(column, values, allowed, expected)?;
     }
-    let [x, y, radius, mass, vx, vy, angular_velocity, temperature] = table.map(|(_, values, _)| values);
-    let disc = |k: usize| Disc {
-        x: x[k],
-        y: y[k],
-        radius: radius[k],
-        vx: vx[k],
-        vy: vy[k],
-        angular_velocity: angular_velocity[k],
-        mass: mass[k],
-        temperature: temperature[k],
+    let disc = |k: usize| {
+        let [x, y, radius, mass, vx, vy, angular_velocity, temperature] =
+            table.each_ref().map(|(_, values, _)| values[k]);
+        Disc { x, y, radius, vx, vy, angular_velocity, mass, temperature }
     };
     Ok((0..expected).map(disc).collect())
 }
@@ -354,13 +338,9 @@ fn check_overlaps(simulation: &Simulation) -> Result<(), StateError> {
 
 fn set_contacts(simulation: &mut Simulation, columns: &Contacts) -> Result<(), StateError> {
     let expected = columns.i.len();
-    for (column, found) in
-        [("contacts.j", columns.j.len()), ("contacts.tangential_force", columns.tangential_force.len())]
-    {
-        if found != expected {
-            return Err(StateError::Length { column, found, expected });
-        }
-    }
+    let lengths =
+        [("contacts.j", columns.j.len()), ("contacts.tangential_force", columns.tangential_force.len())];
+    check_lengths(lengths, expected)?;
     let shifts = shifts(columns, simulation.periodic.is_some())?;
     let count = simulation.discs.len() as i64;
     for (contact, shift) in shifts.into_iter().enumerate() {
@@ -394,9 +374,7 @@ fn shifts(columns: &Contacts, periodic: bool) -> Result<Vec<[i32; 2]>, StateErro
     let given = [("contacts.shift_x", &columns.shift_x), ("contacts.shift_y", &columns.shift_y)];
     for (axis, (column, values)) in given.into_iter().enumerate() {
         let Some(values) = values else { continue };
-        if values.len() != expected {
-            return Err(StateError::Length { column, found: values.len(), expected });
-        }
+        check_lengths([(column, values.len())], expected)?;
         for (contact, &value) in values.iter().enumerate() {
             // Discs and images are near the box (see `check_near`), so shifts are small.
             if value != 0 && (!periodic || value.unsigned_abs() > 4 * FARTHEST_CELL as u32) {
@@ -413,37 +391,27 @@ fn set_run(simulation: &mut Simulation, run: Run) -> Result<(), StateError> {
     let numbers = [run.time, run.time_step, run.strain, run.strain_rate, run.free_drag];
     let walls = run.wall_normal_velocity.iter().chain(&run.wall_tangential_velocity);
     let all = numbers.iter().chain(walls).chain(&run.reference_radius);
+    let wrong = |problem: &str| Err(StateError::Run(problem.to_string()));
     if run.reference_radius.len() != simulation.discs.len()
         || all.clone().any(|v| v.is_nan() || v.abs() > LARGEST)
     {
-        return Err(StateError::Run(
-            "needs numbers from -1e30 to 1e30 and one reference radius a particle".to_string(),
-        ));
+        return wrong("needs numbers from -1e30 to 1e30 and one reference radius a particle");
     }
     if !(run.time_step > 0.0 && run.free_drag >= 0.0 && run.reference_radius.iter().all(|&r| r > 0.0)) {
-        return Err(StateError::Run(
-            "time_step and reference_radius must be > 0, free_drag >= 0".to_string(),
-        ));
+        return wrong("time_step and reference_radius must be > 0, free_drag >= 0");
     }
     let shear_rate = run.shear_rate.unwrap_or(0.0);
     match &mut simulation.periodic {
         Some(periodic) if shear_rate.abs() <= LARGEST => periodic.shear_rate = shear_rate,
         None if run.shear_rate.is_none() => (),
         _ => {
-            let problem = format!("shear_rate = {shear_rate}, allowed: -1e30 to 1e30, in a periodic box");
-            return Err(StateError::Run(problem));
+            return wrong(&format!("shear_rate = {shear_rate}, allowed: -1e30 to 1e30, in a periodic box"));
         }
     }
     simulation.free_drag = run.free_drag;
     simulation.walls.normal_velocity = run.wall_normal_velocity;
     simulation.walls.tangential_velocity = run.wall_tangential_velocity;
-    simulation.set_run_state(RunState {
-        time: run.time,
-        steps: run.steps,
-        time_step: run.time_step,
-        strain: run.strain,
-        strain_rate: run.strain_rate,
-        reference_radius: run.reference_radius,
-    });
+    let Run { time, steps, time_step, strain, strain_rate, reference_radius, .. } = run;
+    simulation.set_run_state(RunState { time, steps, time_step, strain, strain_rate, reference_radius });
     Ok(())
 }

@@ -1,9 +1,10 @@
 //! What state files of discs ([`crate::state`]) and of spheres ([`crate::spheres::state`]) share: schema, dimension, checksum, and
 //! checks of columns.
 
+use crate::database::provenance::sha256;
 use crate::message::{number, shortened};
+use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
-use sha2::{Digest, Sha256};
 
 /// Largest magnitude of a state's numbers, and its inverse the smallest: products of several stay finite.
 pub(crate) const LARGEST: f64 = 1e30;
@@ -44,14 +45,23 @@ pub enum StateError {
 /// SHA-256 of the values of a file without its checksum, independent of the layout of the text; hexadecimal.
 pub(crate) fn digest(file: &impl Serialize) -> Result<String, StateError> {
     let text = serde_json::to_string(file)?;
-    Ok(Sha256::digest(text.as_bytes()).iter().map(|byte| format!("{byte:02x}")).collect())
+    Ok(sha256(text.as_bytes()))
 }
 
-/// Compares the checksum that a file had with that of its values.
-pub(crate) fn check_digest(file: &impl Serialize, found: Option<String>) -> Result<(), StateError> {
-    let Some(found) = found else { return Ok(()) };
-    let expected = digest(file)?;
-    if found == expected { Ok(()) } else { Err(StateError::Checksum { found, expected }) }
+/// Reads a file of grains of a dimension, and compares its checksum, which it loses, with that of its values.
+pub(crate) fn read<F: Serialize + DeserializeOwned>(
+    text: &str,
+    (number, allowed): (u32, &'static str),
+    checksum: fn(&mut F) -> Option<String>,
+) -> Result<F, StateError> {
+    let found = dimension(text)?;
+    if found != number {
+        return Err(StateError::Dimension { found, allowed });
+    }
+    let mut file: F = serde_json::from_str(text)?;
+    let Some(found) = checksum(&mut file) else { return Ok(file) };
+    let expected = digest(&file)?;
+    if found == expected { Ok(file) } else { Err(StateError::Checksum { found, expected }) }
 }
 
 /// Whether a state is of discs (2) or of spheres (3).
@@ -86,6 +96,17 @@ pub(crate) fn is_allowed(value: f64, allowed: &str) -> bool {
     value.abs() <= LARGEST && (allowed != POSITIVE || value >= SMALLEST)
 }
 
+/// Refuses columns that have another number of values than expected.
+pub(crate) fn check_lengths<const N: usize>(
+    columns: [(&'static str, usize); N],
+    expected: usize,
+) -> Result<(), StateError> {
+    match columns.into_iter().find(|(_, found)| *found != expected) {
+        Some((column, found)) => Err(StateError::Length { column, found, expected }),
+        None => Ok(()),
+    }
+}
+
 /// Refuses a column that has another number of values than expected, or a value that is not allowed.
 pub(crate) fn check_column(
     column: &'static str,
@@ -93,9 +114,7 @@ pub(crate) fn check_column(
     allowed: &'static str,
     expected: usize,
 ) -> Result<(), StateError> {
-    if values.len() != expected {
-        return Err(StateError::Length { column, found: values.len(), expected });
-    }
+    check_lengths([(column, values.len())], expected)?;
     match values.iter().enumerate().find(|(_, value)| !is_allowed(**value, allowed)) {
         Some((particle, &value)) => Err(StateError::Particle { particle, column, value, allowed }),
         None => Ok(()),

@@ -18,22 +18,10 @@ pub enum Stage {
     Averaging,
 }
 
-impl Stage {
-    pub const ALL: [Self; 5] =
-        [Self::Packing, Self::PackingSettle, Self::Strain, Self::StrainSettle, Self::Averaging];
+/// Their names.
+pub const STAGES: [&str; 5] = ["packing", "packing_settle", "strain", "strain_settle", "averaging"];
 
-    pub fn as_str(self) -> &'static str {
-        match self {
-            Self::Packing => "packing",
-            Self::PackingSettle => "packing_settle",
-            Self::Strain => "strain",
-            Self::StrainSettle => "strain_settle",
-            Self::Averaging => "averaging",
-        }
-    }
-}
-
-/// Seconds, in the order of [`Stage::ALL`].
+/// Seconds, in the order of [`STAGES`].
 pub type Seconds = [f64; 5];
 
 thread_local! {

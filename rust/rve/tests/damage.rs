@@ -1,7 +1,7 @@
 //! Damaged databases and CSVs: a flipped, cut or replaced part is either detected or changes nothing that is read.
 //! MSDD_FLIPS sets the number of flips.
 
-use msdd_rve::database::{Dataset, Plan, Run, check, export_csv, generate, inspect, read, read_all};
+use msdd_rve::database::{Dataset, Plan, Recipe, Run, check, export_csv, generate, inspect, read, read_all};
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
@@ -101,6 +101,7 @@ fn text_that_is_no_text_is_named_by_row_and_column() {
     assert!(read(&csv).is_ok());
     for (old, new, problem) in [
         ("settled", &b"\x80ettled"[..], "row 1, column outcome: byte 0 is not UTF-8"),
+        (",settled,", b",,", "row 1, column outcome: empty, allowed: a text"),
         (",thermal,", b",thormal,", "row 1, column kind: "),
         ("40,", b"4o,", "row 1, column discs: '4o', allowed: a whole number"),
         ("0.14,", b"1e999,", "row 1, column target_porosity: inf, allowed: a finite number"),

@@ -1,8 +1,8 @@
 //! Generation, storage, continuation, shards and export of small databases.
 
 use msdd_rve::database::{
-    DatabaseError, Kind, Plan, RampName, Run, check, export_csv, generate, inspect, read, record::COLUMNS,
-    table::Row,
+    DatabaseError, Kind, Plan, RampName, Recipe, Run, check, export_csv, generate, inspect, read,
+    record::COLUMNS, table::Row,
 };
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
@@ -88,14 +88,13 @@ fn walls_move_and_slip_as_planned() {
     let records = read(&database).unwrap().records;
     let of = |kind: Kind| records.iter().filter(move |r| r.kind == kind);
     let mechanics: Vec<_> = of(Kind::Mechanics).collect();
-    let places: Vec<_> =
-        mechanics.iter().map(|r| (r.ramp.as_str(), r.stop, r.strain_xx, r.strain_yy)).collect();
+    let places: Vec<_> = mechanics.iter().map(|r| (r.ramp, r.stop, r.strain_xx, r.strain_yy)).collect();
     let expected = [
-        ("packed", 0, 0.0, 0.0),
-        ("xx", -1, -0.01, 0.0),
-        ("xx", 1, 0.01, 0.0),
-        ("yy", -1, 0.0, -0.01),
-        ("yy", 1, 0.0, 0.01),
+        (RampName::Packed, 0, 0.0, 0.0),
+        (RampName::Xx, -1, -0.01, 0.0),
+        (RampName::Xx, 1, 0.01, 0.0),
+        (RampName::Yy, -1, 0.0, -0.01),
+        (RampName::Yy, 1, 0.0, 0.01),
     ];
     assert_eq!(places, expected);
     let [packed, closed, opened] = [0, 1, 2].map(|k| mechanics[k].stress_xx.unwrap());

@@ -5,7 +5,7 @@
 mod mutations;
 
 use msdd_rve::database::{
-    Dataset, Effort, Offenders, Plan, Run, check, csv_file, export_csv, generate, read,
+    Dataset, Effort, Offenders, Plan, Recipe, Run, check, csv_file, export_csv, generate, read,
 };
 use msdd_rve::state::{from_json, to_file, to_json};
 use msdd_rve::{Boundary, Material, PackingSpec, pack};

@@ -1,6 +1,6 @@
 //! Guards the engine version: a change of the results of a plan requires that it be raised.
 
-use msdd_rve::database::{ENGINE_VERSION, Plan, Run, generate, read};
+use msdd_rve::database::{ENGINE_VERSION, Plan, Recipe, Run, generate, read};
 use std::ops::ControlFlow;
 use std::path::Path;
 
@@ -52,7 +52,7 @@ fn other_results_need_another_engine_version() {
     // Of the path every tenth row.
     for r in read(&path).unwrap().records.iter().filter(|r| !r.ramp.is_path() || r.stop % 10 == 0) {
         let (pressure, conductivity) = (r.pressure.unwrap(), r.conductivity_xx.unwrap());
-        found += &format!("{} {} {pressure:.5e} {conductivity:.5e} {}\n", r.ramp.as_str(), r.stop, r.steps);
+        found += &format!("{} {} {pressure:.5e} {conductivity:.5e} {}\n", r.ramp, r.stop, r.steps);
     }
     assert!(
         (ENGINE_VERSION, found.as_str()) == GOLDEN,

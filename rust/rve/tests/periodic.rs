@@ -130,7 +130,7 @@ fn spec(discs: usize) -> PackingSpec {
 
 fn packed(discs: usize) -> Simulation {
     let packed = pack(&spec(discs), &Material::default()).unwrap();
-    assert_eq!(packed.settled.outcome.as_str(), "settled");
+    assert_eq!(packed.settled.outcome.to_string(), "settled");
     packed.simulation
 }
 

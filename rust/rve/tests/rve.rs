@@ -1,12 +1,19 @@
 //! Packing and expansion of small RVEs, compared with exact laws.
 
 use msdd_rve::{
-    Averages, Compression, Material, Outcome, PackingSpec, Protocol, RegionKind, Relaxation, Strains, expand,
-    follow, homogenise, pack,
+    Averages, Compression, Material, Outcome, Packed, PackingSpec, Protocol, Ramp, RegionKind, Relaxation,
+    Strains, follow, homogenise, pack,
 };
 
 fn spec(compression: Compression) -> PackingSpec {
     PackingSpec { discs: 120, seed: 7, porosity: 0.12, compression, ..PackingSpec::default() }
+}
+
+/// One ramp of thermal strain from the packed state through `stops`.
+fn expand(packed: &Packed, stops: &[f64]) -> Ramp {
+    let path: Vec<Strains> = stops.iter().copied().map(Strains::thermal).collect();
+    let protocol = Protocol::usual(&packed.simulation);
+    follow(&mut packed.simulation.clone(), &path, protocol, |_, _| ()).unwrap()
 }
 
 #[test]
@@ -25,8 +32,8 @@ fn packing_meets_the_target_and_the_compression_shows() {
 fn expansion_obeys_the_mass_law_and_stiffens() {
     let packed = pack(&spec(Compression::Isotropic), &Material::default()).unwrap();
     let start = homogenise(&packed.simulation, RegionKind::default());
-    let up = expand(&packed, &[0.005, 0.01, 0.03]).unwrap().stops;
-    let down = expand(&packed, &[-0.005, -0.01]).unwrap().stops;
+    let up = expand(&packed, &[0.005, 0.01, 0.03]).stops;
+    let down = expand(&packed, &[-0.005, -0.01]).stops;
     for stop in up.iter().chain(&down) {
         let law = (1.0 - start.porosity_sum_of_areas) * (1.0 + stop.strains.thermal).powi(2);
         assert!((1.0 - stop.averages.porosity_sum_of_areas - law).abs() < 1e-12);
@@ -41,7 +48,7 @@ fn expansion_obeys_the_mass_law_and_stiffens() {
 fn same_seed_same_bytes() {
     let run = || {
         let packed = pack(&spec(Compression::Isotropic), &Material::default()).unwrap();
-        format!("{:?}", expand(&packed, &[0.01]).unwrap())
+        format!("{:?}", expand(&packed, &[0.01]))
     };
     assert_eq!(run(), run());
 }
@@ -49,7 +56,7 @@ fn same_seed_same_bytes() {
 #[test]
 fn a_packing_contracted_far_enough_unjams() {
     let packed = pack(&spec(Compression::Isotropic), &Material::default()).unwrap();
-    let stops = expand(&packed, &[-0.12]).unwrap().stops;
+    let stops = expand(&packed, &[-0.12]).stops;
     assert_eq!(stops[0].settled.outcome, Outcome::Unjammed);
 }
 
@@ -62,8 +69,6 @@ fn bad_input_names_key_value_and_range() {
         "porosity = 0.9, allowed: 0.01 to 0.3"
     );
     assert!(message(&PackingSpec { discs: 3, ..good.clone() }).starts_with("discs = 3"));
-    let packed = pack(&good, &Material::default()).unwrap();
-    assert!(expand(&packed, &[0.02, 0.01]).unwrap_err().to_string().starts_with("strains = [0.02, 0.01]"));
 }
 
 /// Walls that close along x by 1 % raise σ_xx more than σ_yy, and the box follows its path exactly. A uniform thermal

@@ -1,6 +1,5 @@
 //! Grains of any size give the same porosity, fabric, K/k and σ/(E r).
 
-use msdd_rve::slide::Slide;
 use msdd_rve::{
     Averages, Boundary, Compression, Material, PackingSpec, Protocol, RegionKind, Relaxation, Strains,
     follow, homogenise, pack, slide,
@@ -93,7 +92,7 @@ fn walls_slip_along_grains_of_any_size_alike() {
         let mut simulation = pack(&spec, &Material::default()).unwrap().simulation;
         let mut met = Vec::new();
         let ways = [0.02 * radius, 0.2 * radius];
-        let ramp = slide(&mut simulation, &ways, (Slide::Same, Relaxation::Damped), |_, sliding| {
+        let ramp = slide(&mut simulation, &ways, Relaxation::Damped, |_, sliding| {
             met.push((sliding.friction, sliding.slip / radius))
         });
         assert!(ramp.unwrap().failure.is_none());

@@ -1,8 +1,8 @@
 //! Generation, continuation, shards and export of small databases of spheres; packings against what is known of them.
 
 use msdd_rve::database::{
-    DatabaseError, Grains, PathName, Plan, Run, Shard, SpherePlan, SphereRecord, export_csv, generate,
-    grains, read, read_spheres,
+    DatabaseError, Grains, PathName, Plan, Recipe, Run, Shard, SpherePlan, SphereRecord, export_csv,
+    generate, grains, read, read_spheres,
 };
 use msdd_rve::spheres::{Averages, Preparation, Strain, advance, averages, prepare};
 use msdd_spheres::Simulation;

@@ -23,7 +23,7 @@ fn state_row(record: &Record, ramp: RampName, stop: i64) -> Option<StateRow> {
     let network = [record.conductivity_network_xx, record.conductivity_network_yy];
     Some(StateRow {
         packing: record.packing,
-        ramp: ramp.as_str().to_string(),
+        ramp: ramp.to_string(),
         stop,
         strain: record.strain,
         porosity: record.porosity?,

@@ -71,7 +71,7 @@ fn tracks_of(rows: &[&Record]) -> Vec<Track> {
 }
 
 fn track(packed: &Record, ramp: RampName, start: Point, steps: Vec<Step>) -> Track {
-    let name = ramp.as_str().to_string();
+    let name = ramp.to_string();
     Track { packing: packed.packing, name, discs: packed.discs as usize, packed: start, steps }
 }
 

@@ -6,6 +6,7 @@ use super::grains::{
 };
 use super::sections::{INTERVAL, MIN_HEIGHT, MIN_SPHERES, OUTPUT_EVERY, POROSITIES, SOURCES, STEPS, STRAINS};
 use super::{BedCase, Lid, PlateKeys, Shell, Sides, Wrong};
+use crate::schedule::Schedule;
 use msdd_engine::message::number;
 use std::f64::consts::PI;
 
@@ -14,6 +15,10 @@ const PLATE_OUTPUT: &str = "a hundred-thousandth of end, to end";
 
 fn wrong<T>(key: &str, value: impl Into<String>, allowed: impl Into<String>) -> Result<T, Wrong> {
     Err((key.to_string(), value.into(), allowed.into()))
+}
+
+fn check(key: &str, schedule: &Schedule, values: [f64; 2]) -> Result<(), Wrong> {
+    schedule.check(values).map_err(|(value, allowed)| (key.to_string(), value, allowed))
 }
 
 impl BedCase {
@@ -94,14 +99,12 @@ impl BedCase {
             return wrong(key, "given", "only without a plate, where grains expand and walls move");
         }
         self.grains.check(self.temperatures(), &self.gas)?;
-        match &self.lid {
-            Some(Lid { pressure: Some(_), porosity: Some(_), .. }) => {
-                return wrong("lid", "pressure and porosity", "one of pressure and porosity");
-            }
-            Some(Lid { pressure: None, porosity: None, .. }) => {
-                return wrong("lid", "neither pressure nor porosity", "one of pressure and porosity");
-            }
-            _ => {}
+        let given = self.lid.as_ref().map(|lid| (lid.pressure.is_some(), lid.porosity.is_some()));
+        if let Some((pressure, porosity)) = given
+            && pressure == porosity
+        {
+            let value = if pressure { "pressure and porosity" } else { "neither pressure nor porosity" };
+            return wrong("lid", value, "one of pressure and porosity");
         }
         let turned = self.turn.iter().map(|turn| ("turn.down", &turn.down));
         self.check_walls(turned.chain([("plate.wall", &plate.wall)]), true)?;
@@ -137,8 +140,7 @@ impl BedCase {
         }
         self.check_solver()?;
         for temperature in self.heated.iter().filter_map(|heated| heated.temperature.as_ref()) {
-            let told = |(value, allowed)| ("heated.temperature".to_string(), value, allowed);
-            temperature.check(TEMPERATURES).map_err(told)?;
+            check("heated.temperature", temperature, TEMPERATURES)?;
         }
         self.grains.check(self.temperatures(), &self.gas)?;
         let heated = self.heated.iter().map(|heated| ("heated.wall", &heated.wall));
@@ -147,12 +149,8 @@ impl BedCase {
             (Some(_), Some(_)) => {
                 return wrong("lid", "strain and pressing", "one of strain and pressing, or neither");
             }
-            (Some(path), None) => {
-                path.check(STRAINS).map_err(|(value, allowed)| ("lid.strain".into(), value, allowed))?;
-            }
-            (None, Some(path)) => {
-                path.check(POSITIVE).map_err(|(value, allowed)| ("lid.pressing".into(), value, allowed))?;
-            }
+            (Some(path), None) => check("lid.strain", path, STRAINS)?,
+            (None, Some(path)) => check("lid.pressing", path, POSITIVE)?,
             (None, None) => {}
         }
         if self.shell.is_some() && self.container.radius.is_none() {
@@ -162,9 +160,8 @@ impl BedCase {
             if !self.container.endless {
                 return wrong("sides", "given", "a bed without sides: container.endless = true");
             }
-            for (key, strain) in [("sides.strain_x", strain_x), ("sides.strain_y", strain_y)] {
-                strain.check(STRAINS).map_err(|(value, allowed)| (key.to_string(), value, allowed))?;
-            }
+            check("sides.strain_x", strain_x, STRAINS)?;
+            check("sides.strain_y", strain_y, STRAINS)?;
         }
         if self.record.radius.is_some() != self.container.radius.is_some() {
             return wrong("record.radius", "given or not", "given in a cylinder, and nowhere else");

@@ -3,13 +3,16 @@
 use crate::effective::{GOOD, MIN_RATIO, closure_error};
 use crate::exchange::{Emissivities, Exchange, OutOfRange, RADIATING, Tracing, exchange};
 use crate::named_gases::GasName;
+use crate::network::Materials;
 use crate::pour::{Container, Pouring, WIDEST};
 use crate::property::{Property, VALUES};
 use crate::rays::Enclosure;
 use crate::settle::longest;
 use crate::sizes::{MAX_SPREAD, Moments, Sizes};
+use crate::solid::{PeakStress, Roughness};
 use msdd_engine::message::{number, range};
-use msdd_spheres::{Material, Simulation, Stiffness};
+use msdd_spheres::law::effective_modulus;
+use msdd_spheres::{Material, Partner, Simulation, Stiffness};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 
@@ -67,17 +70,14 @@ pub struct Grains {
     pub thermal_expansion: Option<f64>,
     /// Force on a contact at which a sphere breaks, with which the solver's case compares \[N\]. Allowed: `POSITIVE`. Default: not
     /// known.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub crush_load: Option<f64>,
     /// Standard deviation of the diameters over their mean, both weighted by surface, instead of `sizes`; DEM takes a log-normal
     /// distribution. Allowed: 0 to 0.25. Default: that of `sizes`.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub size_spread: Option<f64>,
     /// Distribution of the diameters, scaled so that their Sauter mean is `diameter`: `uniform` with the least and the largest one (by
     /// number), `normal` or `log_normal` with the standard deviation over the mean (by number, cut at two standard deviations), or
     /// `sieve` with rows of an opening and the share of the mass that passes it; two rows of one opening are spheres of that
     /// diameter. As `sieve=[[1,0],[1,0.3],[2,0.3],[2,1]]`. Allowed: up to 1:4. Default: equal spheres.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub sizes: Option<Sizes>,
 }
 
@@ -101,11 +101,9 @@ pub struct Vessel {
     pub gravity: f64,
     /// Height of the bed, which the solver's case has; DEM finds it from the number of spheres \[m\]. Allowed: `POSITIVE`.
     /// Default: required by `case new`.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub height: Option<f64>,
     /// Porosity at the start, which the solver's case has; DEM finds it. Allowed: 0.2 to 0.7, and the range of the law. Default: 0.4,
     /// less for unequal spheres.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub porosity: Option<f64>,
 }
 
@@ -250,6 +248,32 @@ impl Grains {
         exchange(&Enclosure::new(simulation), &emissivities, &tracing).map(Some)
     }
 
+    /// What conducts heat in a bed of them with a solid fraction.
+    pub(crate) fn materials(&self, gas: &GasKeys, solid_fraction: f64) -> Materials {
+        Materials {
+            conductivity: self.conductivity.clone(),
+            heat_capacity: self.heat_capacity.clone(),
+            effective_modulus: effective_modulus(self.young_modulus, self.poisson_ratio),
+            roughness: Roughness::given(self.roughness, self.hardness),
+            gas: gas.name,
+            gas_pressure: gas.pressure,
+            accommodation: gas.accommodation,
+            solid_fraction: Some(solid_fraction),
+        }
+    }
+
+    /// The stress in the contacts of a bed against the yield stress, if that is given.
+    pub fn peak_stress(&self, simulation: &Simulation) -> Option<PeakStress> {
+        let mut contacts = Vec::new();
+        simulation.for_each_contact(|contact| {
+            if let Partner::Sphere(_) = contact.i {
+                contacts.push((contact.normal_force, contact.effective_radius));
+            }
+        });
+        let modulus = effective_modulus(self.young_modulus, self.poisson_ratio);
+        self.yield_stress.map(|limit| PeakStress::new(contacts.into_iter(), modulus, limit))
+    }
+
     /// Pours the grains into a container under `gravity` \[m/s²\].
     pub(crate) fn pouring(&self, seed: u64, container: Container, gravity: f64, threads: usize) -> Pouring {
         let mut pouring = Pouring {
@@ -351,18 +375,14 @@ impl Grains {
             properties.push(("grains.emissivity", table, RADIATING));
         }
         for (key, property, values) in properties {
-            property.check(range, values).map_err(|error| {
-                let text = error.to_string();
-                let (value, allowed) = text.split_once(", allowed: ").unwrap_or((&text, "see above"));
-                (key.to_string(), value.to_string(), allowed.to_string())
-            })?;
+            property.check(range, values).map_err(|(value, allowed)| (key.to_string(), value, allowed))?;
         }
         let [low, high] = keys.name.range();
         if range[0] < low || range[1] > high {
             let allowed = format!("a gas that is known there; this one: {low} to {high} K");
             return Err((
                 "gas.name".into(),
-                format!("{} at {} K to {} K", keys.name.as_str(), number(range[0]), number(range[1])),
+                format!("{} at {} K to {} K", keys.name, number(range[0]), number(range[1])),
                 allowed,
             ));
         }

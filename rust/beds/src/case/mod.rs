@@ -19,6 +19,7 @@ use grains::REFERENCE_FRACTION;
 use msdd_files::{FileError, read_text};
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
+use std::sync::LazyLock;
 
 /// Name of the file in the folder of a case.
 pub const FILE: &str = "bed.toml";
@@ -38,17 +39,14 @@ pub struct BedCase {
     pub seed: u64,
     /// Heat released in the spheres, over their volume. Tables have to reach the temperatures that it causes, which are not known
     /// beforehand \[W/m³\]. Allowed: `SOURCES`; by the solver also below 0. Default: none.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub heat_source: Option<f64>,
     /// A section: the spheres.
     pub grains: Grains,
     /// A section: what they are poured into.
     pub container: Vessel,
     /// A section: a lid that is pressed on after pouring, and then stays or moves. Default: next to a `plate`, no lid; else required.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub lid: Option<Lid>,
     /// A section: how the container is turned then, with a `plate` alone. Default: not turned.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub turn: Option<Turn>,
     /// A section: the gas between the spheres.
     pub gas: GasKeys,
@@ -57,16 +55,12 @@ pub struct BedCase {
     pub heated: Vec<Heated>,
     /// A section: one wall that is heated, as in an experiment, through its contacts with spheres that keep their size and their
     /// places. Default: walls of `heated`, and spheres that move.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub plate: Option<PlateKeys>,
     /// A section: gas that flows through the bed, for the solver alone. Default: it is at rest.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub flow: Option<Flow>,
     /// A section: the compliance of the side of a cylinder. Default: a rigid side.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub shell: Option<Shell>,
     /// A section: how a bed without sides is strained across, by DEM alone. Default: it keeps its base.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub sides: Option<Sides>,
     /// A section: temperature at the start, intervals, steps.
     pub time: Time,
@@ -77,7 +71,6 @@ pub struct BedCase {
     #[serde(default, skip_serializing_if = "SolverKeys::is_empty")]
     pub solver: SolverKeys,
     /// A section: measurements, with a `plate` alone.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub experiment: Option<ExperimentKeys>,
     /// Blocks `[[vary]]`, with a `plate` alone: with `--vary` all is computed again with one value changed.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -94,17 +87,7 @@ const TOLERANCES: [f64; 2] = [0.02, 0.05];
 /// Averages are taken so many diameters from the ends of the bed, and in a cylinder from its side.
 const MARGIN: f64 = 2.0;
 /// What no plate is.
-static NO_PLATE: PlateKeys = PlateKeys {
-    wall: String::new(),
-    temperature: f64::NAN,
-    pressure: None,
-    young_modulus: f64::NAN,
-    poisson_ratio: f64::NAN,
-    conductivity: None,
-    roughness: None,
-    hardness: None,
-    emissivity: None,
-};
+static NO_PLATE: LazyLock<PlateKeys> = LazyLock::new(PlateKeys::default);
 
 /// What is wrong with a description. The messages name file, key, value and what is allowed.
 #[derive(Debug, thiserror::Error)]
@@ -223,10 +206,12 @@ impl BedCase {
         let mut table: toml::Table = toml::from_str(&text).map_err(|error| read(error.to_string()))?;
         table.insert("seed".to_string(), toml::Value::Integer(self.seed as i64));
         table.remove("vary");
-        if ["experiment", "vary"].contains(&vary.key.split('.').next().unwrap_or_default()) {
-            let allowed = "a key of the bed: all are compared with the same measurements".to_string();
+        let wrong = |allowed: String| {
             let (key, value) = ("vary.key".to_string(), vary.key.clone());
-            return Err(CaseError::Value { file, key, value, allowed });
+            Err(CaseError::Value { file: file.clone(), key, value, allowed })
+        };
+        if ["experiment", "vary"].contains(&vary.key.split('.').next().unwrap_or_default()) {
+            return wrong("a key of the bed: all are compared with the same measurements".to_string());
         }
         match vary.key.split_once('.') {
             None => {
@@ -235,9 +220,7 @@ impl BedCase {
             Some((section, key)) => {
                 let Some(toml::Value::Table(inner)) = table.get_mut(section) else {
                     let sections: Vec<&str> = table.keys().map(String::as_str).collect();
-                    let allowed = format!("a key of {}", sections.join(", "));
-                    let (key, value) = ("vary.key".to_string(), vary.key.clone());
-                    return Err(CaseError::Value { file, key, value, allowed });
+                    return wrong(format!("a key of {}", sections.join(", ")));
                 };
                 inner.insert(key.to_string(), vary.value.clone());
             }

@@ -2,7 +2,7 @@
 
 use super::grains::absent;
 use crate::schedule::Schedule;
-use crate::units::{kelvin, kelvin_over_time_or_none};
+use crate::units::{kelvin, kelvin_over_time};
 use serde::{Deserialize, Serialize};
 use std::path::PathBuf;
 
@@ -23,19 +23,15 @@ pub(super) const POROSITIES: [f64; 2] = [0.35, 0.7];
 #[serde(deny_unknown_fields)]
 pub struct Lid {
     /// Pressure with which the lid is pressed on before the start \[Pa\]. Allowed: `POSITIVE`. Default: this or `porosity`.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub pressure: Option<f64>,
     /// Share of the pores in the volume between floor and lid at which the lid stops, with a `plate` alone. Its pressure then is that of
     /// spheres with `simulated_young_modulus`, and in proportion to it. Allowed: `POROSITIES`. Default: this or `pressure`.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub porosity: Option<f64>,
     /// Over time: how far it has moved towards the spheres since the start, over the depth of the bed. Allowed: `STRAINS`.
     /// Default: it stays where it is.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub strain: Option<Schedule>,
     /// Over time: the constant pressure of the lid, instead of `strain` \[Pa\]. Allowed: `POSITIVE`; by `case new`
     /// `pressure`. Default: it stays where it is.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub pressing: Option<Schedule>,
 }
 
@@ -54,16 +50,13 @@ pub struct Heated {
     pub wall: String,
     /// Its temperature over time; each may be a text with a unit, as `"80C"` \[K\]. Allowed: `TEMPERATURES`. Default: this, or `flux`,
     /// or `coefficient` and `outside`.
-    #[serde(default, deserialize_with = "kelvin_over_time_or_none", skip_serializing_if = "Option::is_none")]
+    #[serde(default, deserialize_with = "kelvin_over_time", skip_serializing_if = "Option::is_none")]
     pub temperature: Option<Schedule>,
     /// Heat transfer coefficient to the outside, for the solver alone [W/(m² K)]. Default: none.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub coefficient: Option<f64>,
     /// Temperature outside \[K\]. Default: required with `coefficient`.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub outside: Option<f64>,
     /// Heat flux into the bed, for the solver alone [W/m²]. Default: none.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub flux: Option<f64>,
     /// Whether heat passes through the contacts and the gas between the wall and each sphere; the surface of the wall has one temperature,
     /// and the stiffness and asperities of the spheres. Allowed: `true`, `false`: spheres whose centre is within a diameter of the wall
@@ -115,7 +108,7 @@ impl Flow {
 }
 
 /// The wall that is heated.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PlateKeys {
     /// The wall that is heated. Allowed: a flat wall that the bed touches; with `pressure`, not the one on which the bed rests.
@@ -205,50 +198,40 @@ impl Time {
 }
 
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(default, deny_unknown_fields)]
 pub struct RecordKeys {
     /// The wall from which distances are counted. Allowed: a wall of the container; with a `plate` that one. Default: with a
     /// `plate` required; else the first heated one, or the floor.
-    #[serde(default)]
     pub wall: String,
     /// Distances at which T is recorded: the value there of a straight line through the spheres within 1.5 diameters, from `side`
     /// those between `heights` \[m\]. Allowed: where there are spheres. Default: half of the bed; with a `plate` required.
-    #[serde(default)]
     pub distances: Vec<f64>,
     /// Two heights above the floor, between which averages are taken \[m\]. Allowed: rising, `MIN_HEIGHT` diameters apart at
     /// least, within the bed; about `MIN_SPHERES` spheres at least between them. Default: two diameters off the ends; none with a `plate`.
-    #[serde(default)]
     pub heights: [f64; 2],
     /// In a cylinder, the distance from the axis within which averages are taken \[m\]. Allowed: a diameter to the radius of the
     /// container. Default: with `heights` required in a cylinder, else two diameters off its side.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub radius: Option<f64>,
 }
 
 /// What a case of the solver needs beyond the bed.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(default, deny_unknown_fields)]
 pub struct SolverKeys {
     /// Cells along x, y and z, or along radius and axis. Default: a proposal.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub cells: Option<Vec<usize>>,
     /// Whether the spheres move. Default: `equilibrium`.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub mechanics: Option<Mechanics>,
     /// Slack of the spheres at bottom and top where these stay \[diameters\]. Default: 1; 0 under a lid that presses.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub slack_layer: Option<f64>,
     /// Material of the walls that heat passes: `steel`, `stainless-steel`, `aluminium`, `glass`, or `none`. Default: `steel`.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub wall_material: Option<String>,
     /// Largest error of T that a time step may add \[K\]. Default: a thousandth of the range of T.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tolerance: Option<f64>,
     /// Whether the run ends before `end`, once it is steady. Default: `false`.
-    #[serde(default)]
     pub steady: bool,
     /// Points where T is recorded: x, y, z, or distance from the axis and height \[m\]. Default: three points.
-    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    #[serde(skip_serializing_if = "Vec::is_empty")]
     pub probes: Vec<Vec<f64>>,
 }
 

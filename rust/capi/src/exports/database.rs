@@ -4,7 +4,7 @@ use super::string;
 use crate::abi::msdd_progress;
 use crate::panics;
 use crate::status::{Failure, status};
-use ::msdd_rve::database::{Plan, Run, export_csv, generate};
+use ::msdd_rve::database::{Plan, Recipe, Run, export_csv, generate};
 use std::ffi::{c_char, c_void};
 use std::ops::ControlFlow;
 use std::path::Path;

@@ -1,7 +1,7 @@
 //! Readers of texts, and what each of them must guarantee for any text.
 
 use crate::common::{self, Cells, Model, OK, last_error};
-use ::msdd_rve::database::Plan;
+use ::msdd_rve::database::{Plan, Recipe};
 use msdd::abi::{self, msdd_averages, msdd_rve};
 use msdd::exports::*;
 use std::ffi::{CString, c_void};

@@ -220,7 +220,7 @@ fn bed_values(scene: &SphereCase, start: &InitialBed) -> Result<Values, CaseErro
         ("flowRow", flow_row(scene)),
         ("flowResult", when(scene.flow.is_some(), || FLOW_RESULT.to_string())),
         ("notFlow", if scene.flow.is_some() { "" } else { ", and flow of the gas" }.to_string()),
-        ("gas", scene.gas.name.as_str().to_string()),
+        ("gas", scene.gas.name.to_string()),
         ("gasPressure", plain(scene.gas.pressure)),
         ("accommodation", plain(scene.gas.accommodation)),
         ("coordination", short(start.coordination)),

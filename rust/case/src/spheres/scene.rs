@@ -286,7 +286,7 @@ impl SphereCase {
             allow("thermalConductivity", solid, solid >= least, || {
                 format!(
                     "at least the conductivity of the gas ({}), {} W/(m K) at {} K",
-                    gas.as_str(),
+                    gas,
                     number(rounded(least, 3)),
                     number(temperature)
                 )
@@ -303,10 +303,8 @@ impl SphereCase {
             ("heatCapacity", &spheres.heat_capacity),
             ("emissivity", &spheres.emissivity),
         ] {
-            if let Err(error) = property.check(self.temperatures(), [0.0, VALUES[1]]) {
-                let text = error.to_string();
-                let (value, allowed) = text.split_once(", allowed: ").unwrap_or((&text, "see above"));
-                return refuse(key, value, allowed);
+            if let Err((value, allowed)) = property.check(self.temperatures(), [0.0, VALUES[1]]) {
+                return refuse(key, &value, &allowed);
             }
         }
         Ok(())

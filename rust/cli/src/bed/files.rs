@@ -3,6 +3,7 @@
 use super::results::Results;
 use super::{plot, table};
 use crate::error::CliError;
+use msdd_beds::bed::PlateKind;
 use msdd_files::{Column, names};
 use serde_json::{Value, json};
 use std::fmt::Write;
@@ -76,7 +77,7 @@ fn temperature(results: &Results) -> String {
     for run in &results.compared {
         for record in &run.heated.records {
             for (time, t) in &record.rows {
-                let _ = writeln!(text, "{},{},{time},{t:.6}", run.heated.kind.as_str(), record.distance);
+                let _ = writeln!(text, "{},{},{time},{t:.6}", run.heated.kind, record.distance);
             }
         }
     }
@@ -88,7 +89,7 @@ pub fn comparison(results: &Results) -> String {
     if results.measured.is_empty() {
         return text;
     }
-    let mut line = |kind: &str, key: &str, value: &str, misfit: &msdd_beds::experiment::Misfit| {
+    let mut line = |kind: PlateKind, key: &str, value: &str, misfit: &msdd_beds::experiment::Misfit| {
         let place = misfit.distance.map_or("all".to_string(), |d| d.to_string());
         let (rms, worst, bias) = (misfit.rms, misfit.worst, misfit.bias);
         let value = value.replace(',', ";");
@@ -97,10 +98,10 @@ pub fn comparison(results: &Results) -> String {
         let _ = writeln!(text, "{kind},{key},{value},{place},{},{numbers}", misfit.points);
     };
     for run in &results.compared {
-        run.misfits.iter().for_each(|misfit| line(run.heated.kind.as_str(), "", "", misfit));
+        run.misfits.iter().for_each(|misfit| line(run.heated.kind, "", "", misfit));
     }
     for varied in &results.varied {
-        line(varied.kind.as_str(), &varied.key, &varied.value, &varied.misfit);
+        line(varied.kind, &varied.key, &varied.value, &varied.misfit);
     }
     text
 }
@@ -126,12 +127,12 @@ fn summary(results: &Results) -> String {
         .map(|run| {
             let heated = &run.heated;
             json!({
-                "plate": heated.kind.as_str(), "stored": heated.stored, "balance_residual": heated.residual,
+                "plate": heated.kind, "stored": heated.stored, "balance_residual": heated.residual,
                 "steps": heated.steps,
             })
         })
         .collect();
-    let stress = bed.peak_stress(case).map(|stress| {
+    let stress = case.grains.peak_stress(&bed.simulation).map(|stress| {
         json!({
             "largest": stress.largest, "yield_stress": stress.yield_stress, "beyond": stress.beyond,
             "contacts": stress.contacts,
@@ -157,7 +158,7 @@ fn summary(results: &Results) -> String {
 
 fn grains(results: &Results) -> String {
     let further: Vec<(String, &[f64])> = (results.compared.iter())
-        .map(|run| (format!("T_{}", run.heated.kind.as_str()), run.heated.temperatures.as_slice()))
+        .map(|run| (format!("T_{}", run.heated.kind), run.heated.temperatures.as_slice()))
         .collect();
     msdd_beds::vtk::grains(&results.bed.simulation, &further)
 }

@@ -204,7 +204,7 @@ fn properties(scene: &BedCase, start: &FirstRow, geometry: &Geometry) -> String 
         plain(grains.poisson_ratio),
         plain(grains.roughness.unwrap_or(0.0)),
         plain(hardness),
-        scene.gas.name.as_str(),
+        scene.gas.name,
         plain(scene.gas.pressure),
         plain(scene.gas.accommodation),
         plain(start.coordination),

@@ -52,7 +52,7 @@ fn differences(results: &Results) {
     for run in &results.compared {
         for misfit in &run.misfits {
             let place = misfit.distance.map_or("all".to_string(), |d| format!("{:.0}", 1e3 * d));
-            outln!("{:<12}{place:>10}   {}", run.heated.kind.as_str(), numbers(misfit));
+            outln!("{:<12}{place:>10}   {}", run.heated.kind, numbers(misfit));
         }
     }
     if results.varied.is_empty() {
@@ -61,7 +61,7 @@ fn differences(results: &Results) {
     outln!("with one value changed, all distances [K]");
     for varied in &results.varied {
         let what = format!("{} = {}", varied.key, varied.value);
-        outln!("{:<12}{what:<36} {}", varied.kind.as_str(), numbers(&varied.misfit));
+        outln!("{:<12}{what:<36} {}", varied.kind, numbers(&varied.misfit));
     }
 }
 
@@ -78,7 +78,7 @@ pub fn warnings(results: &Results) -> Vec<String> {
         let all = results.measured.len();
         format!("{count} of {all} measurements lie outside the time of the run and are left out")
     });
-    let stress = results.bed.peak_stress(&results.case).and_then(|stress| stress.warning());
+    let stress = results.case.grains.peak_stress(&results.bed.simulation).and_then(|stress| stress.warning());
     let lid = results.bed.lid_pressure(&results.case).map(|pressure| {
         format!(
             "the lid, which stopped at a porosity, presses with {pressure:.3e} Pa; that is in proportion to grains.simulated_young_modulus"

@@ -478,7 +478,7 @@ pub fn summary(scene: &SphereCase) -> Result<String, CliError> {
         plain(scene.end_time),
         short(start.conductivity),
         short(start.by_gas),
-        scene.gas.name.as_str(),
+        scene.gas.name,
         short(start.conductivity - start.by_gas - start.by_radiation),
         short(start.by_radiation),
         short(start.coordination),

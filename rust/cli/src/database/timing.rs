@@ -1,7 +1,7 @@
 //! How long the parts of the generation of a database took.
 
 use msdd_rve::database::Progress;
-use msdd_rve::stopwatch::Stage;
+use msdd_rve::stopwatch::STAGES;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fmt;
@@ -20,8 +20,7 @@ pub struct Timing {
 
 impl Timing {
     pub fn new(made: &Progress, threads: usize, seconds: f64) -> Self {
-        let mut stages: BTreeMap<&str, f64> =
-            Stage::ALL.iter().map(|s| s.as_str()).zip(made.seconds).collect();
+        let mut stages: BTreeMap<&str, f64> = STAGES.into_iter().zip(made.seconds).collect();
         stages.insert("storing", made.storing);
         let rows_per_second = made.rows as f64 / seconds.max(f64::MIN_POSITIVE);
         Self { rows: made.rows, seconds, rows_per_second, threads, stages }

@@ -207,7 +207,7 @@ impl ModelArguments {
             "packed seed {} in {:.1} s: {} after {} steps, {}",
             self.seed,
             begin.elapsed().as_secs_f64(),
-            model.settled.outcome.as_str(),
+            model.settled.outcome,
             model.settled.steps,
             path.display()
         );

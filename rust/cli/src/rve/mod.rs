@@ -150,7 +150,7 @@ fn report(what: &str, settled: &Settled, averages: &Averages) {
     outln!(
         "{what}: {} after {} steps, porosity {:.4}, fabric index {:+.4}, K/k {:.4} {:.4}, pressure {:.1} Pa, \
          coordination {:.2}, rattlers {}",
-        settled.outcome.as_str(),
+        settled.outcome,
         settled.steps,
         averages.porosity,
         averages.fabric_index,

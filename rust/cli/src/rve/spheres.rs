@@ -7,10 +7,10 @@ use crate::output::print_json;
 use msdd_beds::sizes::Moments;
 use msdd_beds::vtk;
 use msdd_files::{check_target, write};
-use msdd_rve::Relaxation;
 use msdd_rve::database::spheres::SphereCompression;
 use msdd_rve::last_good::{self, LastGoodError};
-use msdd_rve::spheres::{Averages, Preparation, Rest, Strain, advance, averages, prepare, state};
+use msdd_rve::spheres::{Averages, Preparation, Strain, advance, averages, prepare, state};
+use msdd_rve::{Relaxation, Settled};
 use msdd_spheres::Simulation;
 use serde_json::json;
 use std::path::{Path, PathBuf};
@@ -131,12 +131,12 @@ fn series(folder: Option<&Path>, number: usize, simulation: &Simulation) -> Resu
 }
 
 /// Prints one line about a state.
-fn report(what: &str, rest: &Rest, a: &Averages) {
+fn report(what: &str, rest: &Settled, a: &Averages) {
     let mean = |tensor: [f64; 6]| (tensor[0] + tensor[1] + tensor[2]) / 3.0;
     outln!(
         "{what}: {} after {} steps, solid fraction {:.4}, coordination {:.3}, pressure/E* {:.4e}, K by contacts/k_s {:.5}, \
          K by gas/k_g {:.3}",
-        rest.outcome.as_str(),
+        rest.outcome,
         rest.steps,
         a.solid_fraction,
         a.coordination,

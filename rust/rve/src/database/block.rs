@@ -2,7 +2,6 @@
 
 use super::kind::{Kind, RampName};
 use super::paths::Steps;
-use crate::slide::Slide;
 use crate::{Boundary, Compression, Material};
 use serde::{Deserialize, Serialize};
 
@@ -18,7 +17,7 @@ const STEPS: [f64; 2] = [1e-5, 1e-2];
 const PROBES: [f64; 2] = [1e-6, 1e-2];
 
 /// Packings of one size: every porosity with every compression and packing friction, `repeats` of each.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Block {
     /// Grains in a packing. Allowed: `DISCS`.
@@ -46,9 +45,6 @@ pub struct Block {
     /// What is around a box: rigid `walls`, or a box that repeats itself without end, `periodic`. Not `periodic` in `wall_shear`.
     #[serde(default)]
     pub boundary: Boundary,
-    /// Of `wall_shear` only: bottom and top move the `same` way, or `opposite` ways, which shears the grains as well. Default: `same`.
-    #[serde(default)]
-    pub slide: Option<Slide>,
     /// Of `wall_shear` only: whether the friction that bottom and top have mobilised while the box closed is taken back before they
     /// slip. Walls that stay while a box closes along them are loaded in both directions, and then seem half as stiff as in a bed
     /// whose walls came along with the grains.
@@ -72,9 +68,6 @@ pub struct PathBlock {
     pub packing_friction_angles: Vec<f64>,
     /// Packings for each porosity, compression and packing friction. Allowed: 1 or more.
     pub repeats: u32,
-    /// What is around a box. Allowed: `periodic`.
-    #[serde(default = "periodic")]
-    pub boundary: Boundary,
     /// Paths that every packing follows, each at most once and from the packed state: the names of paths in the table above.
     /// Allowed: see there.
     pub paths: Vec<RampName>,
@@ -89,10 +82,6 @@ pub struct PathBlock {
     /// list. `equivalence` is not probed. Allowed: 1 or more.
     #[serde(default = "usual_probe_every")]
     pub probe_every: u32,
-}
-
-fn periodic() -> Boundary {
-    Boundary::Periodic
 }
 
 fn usual_step() -> f64 {
@@ -159,20 +148,20 @@ impl AnyBlock<'_> {
 
     pub fn packings(&self) -> Packings<'_> {
         macro_rules! of {
-            ($block:expr) => {
+            ($block:expr, $boundary:expr) => {
                 Packings {
                     discs: $block.discs,
                     porosities: &$block.porosities,
                     compressions: &$block.compressions,
                     packing_friction_angles: &$block.packing_friction_angles,
                     repeats: $block.repeats,
-                    boundary: $block.boundary,
+                    boundary: $boundary,
                 }
             };
         }
         match self {
-            Self::Ramps(_, block) => of!(block),
-            Self::Paths(block) => of!(block),
+            Self::Ramps(_, block) => of!(block, block.boundary),
+            Self::Paths(block) => of!(block, Boundary::Periodic),
         }
     }
 
@@ -199,9 +188,6 @@ impl Block {
             return Err(format!("stops: {:?}, allowed: growing, above 0, at most {largest}", self.stops));
         }
         self.check_returns()?;
-        if self.slide.is_some() && kind != Kind::WallShear {
-            return Err("slide: allowed in [[wall_shear]] only".into());
-        }
         if self.release_walls && kind != Kind::WallShear {
             return Err("release_walls: allowed in [[wall_shear]] only".into());
         }
@@ -226,9 +212,9 @@ impl Block {
         let (usual, more) = kind.ramps();
         let ramps = self.ramps(kind);
         for (k, ramp) in ramps.iter().enumerate() {
-            let problem = |problem| Err(format!("ramps: {}: {problem}", ramp.as_str()));
+            let problem = |problem| Err(format!("ramps: {ramp}: {problem}"));
             if !(usual.contains(ramp) || more.contains(ramp)) {
-                let allowed: Vec<&str> = usual.iter().chain(more).map(|r| r.as_str()).collect();
+                let allowed: Vec<String> = usual.iter().chain(more).map(RampName::to_string).collect();
                 return problem(format!("allowed: {}", allowed.join(", ")));
             }
             if *ramp == RampName::Xy && self.boundary != Boundary::Periodic {
@@ -238,7 +224,7 @@ impl Block {
                 return problem("is named twice".to_string());
             }
             if let Some(first) = ramp.starts_from().filter(|first| !ramps[..k].contains(first)) {
-                return problem(format!("{} must stand before it", first.as_str()));
+                return problem(format!("{first} must stand before it"));
             }
         }
         Ok(())
@@ -251,16 +237,16 @@ impl PathBlock {
     }
 
     fn check(&self) -> Result<(), String> {
-        if self.boundary != Boundary::Periodic {
-            return Err("boundary: walls, allowed: periodic".into());
-        }
         if self.paths.is_empty() {
             return Err("paths: at least one is needed".into());
         }
         for (k, path) in self.paths.iter().enumerate() {
-            let problem = |problem| Err(format!("paths: {}: {problem}", path.as_str()));
+            let problem = |problem| Err(format!("paths: {path}: {problem}"));
             if !path.is_path() {
-                return problem(format!("allowed: {}", RampName::PATHS.map(RampName::as_str).join(", ")));
+                return problem(format!(
+                    "allowed: {}",
+                    RampName::PATHS.map(|path| path.to_string()).join(", ")
+                ));
             }
             if self.paths[..k].contains(path) {
                 return problem("is named twice".to_string());

@@ -1,10 +1,9 @@
 //! CSV: all columns, each row once, with limits on the size.
 
-use super::cell::Value;
 use super::provenance::{self, ABSENT, Provenance, SHA256, hash_of};
 use super::table::{Column, Row};
 use super::{DatabaseError, Dataset};
-use crate::message::shortened;
+use crate::message::{number, shortened};
 use msdd_files::{FileError, MAX_BYTES};
 use std::collections::BTreeSet;
 use std::io::{self, Read, Write};
@@ -107,7 +106,8 @@ pub(super) fn head(path: &Path) -> Result<Option<csv::ByteRecord>, DatabaseError
 pub fn records<R: Row>(path: &Path, text: impl Read, absent: &[&str]) -> Result<Vec<R>, DatabaseError> {
     let failed = csv_error(path);
     let mut reader = reader(path, text)?;
-    let columns = columns::<R>(path, reader.byte_headers().map_err(&failed)?, absent)?;
+    let head = reader.byte_headers().map_err(&failed)?.clone();
+    let columns = columns::<R>(path, &head, absent)?;
     let (mut rows, mut places) = (Vec::new(), BTreeSet::new());
     let mut fields = csv::ByteRecord::new();
     while reader.read_byte_record(&mut fields).map_err(&failed)? {
@@ -118,8 +118,15 @@ pub fn records<R: Row>(path: &Path, text: impl Read, absent: &[&str]) -> Result<
             column,
             problem,
         };
-        let field = |k: usize| columns[k].and_then(|k| fields.get(k)).unwrap_or_default();
-        let row = R::from_cells(|k| cell(R::COLUMNS[k].1, field(k))).map_err(value)?;
+        let check = |(column, field)| checked(column, field).map_err(|problem| value((column.0, problem)));
+        columns.iter().copied().zip(&fields).try_for_each(check)?;
+        let row: R = fields.deserialize(Some(&head)).map_err(|error| {
+            let csv::ErrorKind::Deserialize { err, .. } = error.kind() else { return failed(error) };
+            let unsound =
+                |(column, field): &(&&Column, &[u8])| !(column.5)(&csv::ByteRecord::from(vec![*field]));
+            let column = columns.iter().zip(&fields).find(unsound).map_or("", |(column, _)| column.0);
+            value((column, shortened(&err.kind().to_string())))
+        })?;
         // A small compressed file can unpack to the same row a million times, so duplicates end the reading at once.
         if !places.insert((row.packing(), row.place())) {
             return Err(value(("stop", format!("{} stands twice", row.name()))));
@@ -154,42 +161,47 @@ fn plain<'a>(path: &Path, mut text: impl Read + 'a) -> Result<Bounded<Box<dyn Re
     Ok(Bounded { text: plain, left: MAX_BYTES, line: 0 })
 }
 
-/// The position of each column in the file.
+/// The columns of a file, in its order.
 fn columns<R: Row>(
     path: &Path,
     head: &csv::ByteRecord,
     absent: &[&str],
-) -> Result<Vec<Option<usize>>, DatabaseError> {
+) -> Result<Vec<&'static Column>, DatabaseError> {
     let problem = |problem| DatabaseError::Format { path: path.to_path_buf(), problem };
-    let known = |name: &[u8]| R::COLUMNS.iter().any(|column| column.0.as_bytes() == name);
-    let mut seen = BTreeSet::new();
-    if let Some(name) = head.iter().find(|name| !known(name) || !seen.insert(name.to_vec())) {
-        let name = shortened(&String::from_utf8_lossy(name));
-        return Err(problem(format!("column '{name}' is unknown or stands twice")));
+    let (mut columns, mut seen) = (Vec::new(), BTreeSet::new());
+    for name in head {
+        let known = R::COLUMNS.iter().find(|column| column.0.as_bytes() == name);
+        let Some(column) = known.filter(|column| seen.insert(column.0)) else {
+            let name = shortened(&String::from_utf8_lossy(name));
+            return Err(problem(format!("column '{name}' is unknown or stands twice")));
+        };
+        columns.push(column);
     }
-    let place = |column: &Column| {
-        let found = head.iter().position(|name| name == column.0.as_bytes());
-        match found.is_some() || absent.contains(&column.0) || R::LATER.contains(&column.0) {
-            true => Ok(found),
-            false => Err(problem(format!("column {} is missing; every column is needed", column.0))),
-        }
-    };
-    R::COLUMNS.iter().map(place).collect()
+    let may_lack = |name: &str| seen.contains(name) || absent.contains(&name) || R::LATER.contains(&name);
+    match R::COLUMNS.iter().find(|column| !may_lack(column.0)) {
+        Some(column) => Err(problem(format!("column {} is missing; every column is needed", column.0))),
+        None => Ok(columns),
+    }
 }
 
-/// Converts a field to a value of its column's type; an empty field is an absent value.
-fn cell<'a>(kind: &str, field: &'a [u8]) -> Result<Value<'a>, String> {
-    let number = |allowed: &str| {
-        let found = shortened(&String::from_utf8_lossy(field));
-        format!("'{found}', allowed: {allowed}")
+/// Refuses a field that has no value of its column's kind; an empty field is an absent value.
+fn checked(Column(_, kind, _, _, needed, _): &Column, field: &[u8]) -> Result<(), String> {
+    let text = std::str::from_utf8(field);
+    let real = || text.ok().and_then(|text| text.parse::<f64>().ok());
+    let (allowed, sound) = match *kind {
+        "INTEGER" => ("a whole number", text.is_ok_and(|text| text.parse::<i64>().is_ok())),
+        "REAL" => ("a finite number", real().is_some_and(f64::is_finite)),
+        _ => ("a text", text.is_ok()),
     };
-    let text = || std::str::from_utf8(field).unwrap_or_default();
-    match (field, kind) {
-        ([], _) => Ok(Value::Empty),
-        (_, "INTEGER") => text().parse().map(Value::Integer).map_err(|_| number("a whole number")),
-        (_, "REAL") => text().parse().map(Value::Real).map_err(|_| number("a finite number")),
-        _ => Ok(Value::Text(field)),
-    }
+    let found = match (field, *kind, text, real()) {
+        ([], ..) if *needed => "empty".to_string(),
+        ([], ..) => return Ok(()),
+        _ if sound => return Ok(()),
+        (_, "REAL", _, Some(real)) => number(real),
+        (_, "TEXT", Err(error), _) => format!("byte {} is not UTF-8", error.valid_up_to()),
+        _ => format!("'{}'", shortened(&String::from_utf8_lossy(field))),
+    };
+    Err(format!("{found}, allowed: {allowed}"))
 }
 
 /// A reader that returns an error when the text, or one line of it, is longer than any valid table.

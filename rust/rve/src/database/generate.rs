@@ -72,7 +72,7 @@ pub fn generate<P: Recipe>(
         state.storing += begin.elapsed().as_secs_f64();
         state.done += 1;
         state.rows += records.len();
-        state.failed += usize::from(records.iter().any(Row::has_failed));
+        state.failed += usize::from(records.iter().any(|record| record.failure().is_some()));
         for (sum, seconds) in state.seconds.iter_mut().zip(seconds) {
             *sum += seconds;
         }

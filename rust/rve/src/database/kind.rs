@@ -67,6 +67,8 @@ pub enum RampName {
     Equivalence,
 }
 
+msdd_beds::named!(Kind RampName);
+
 impl Kind {
     /// The ramps of a block that names none; and the further ramps that a block of this kind may name.
     pub(super) fn ramps(self) -> (&'static [RampName], &'static [RampName]) {
@@ -75,16 +77,6 @@ impl Kind {
             Self::Mechanics => (&[RampName::Xx, RampName::Yy], &[RampName::Xy]),
             Self::WallShear => (&[RampName::WallShear], &[]),
             Self::Paths => (&[], &RampName::PATHS),
-        }
-    }
-
-    /// The name in plans and rows.
-    pub fn as_str(self) -> &'static str {
-        match self {
-            Self::Thermal => "thermal",
-            Self::Mechanics => "mechanics",
-            Self::WallShear => "wall_shear",
-            Self::Paths => "paths",
         }
     }
 }
@@ -116,32 +108,6 @@ impl RampName {
             Self::UpDown => Some(Self::Up),
             Self::DownUp => Some(Self::Down),
             _ => None,
-        }
-    }
-
-    /// The name in plans and rows.
-    pub fn as_str(self) -> &'static str {
-        match self {
-            Self::Packed => "packed",
-            Self::Up => "up",
-            Self::Down => "down",
-            Self::UpDown => "up_down",
-            Self::DownUp => "down_up",
-            Self::Xx => "xx",
-            Self::Yy => "yy",
-            Self::Xy => "xy",
-            Self::WallShear => "wall_shear",
-            Self::Uniaxial => "uniaxial",
-            Self::Biaxial => "biaxial",
-            Self::Shear => "shear",
-            Self::Isotropic => "isotropic",
-            Self::Thermal => "thermal",
-            Self::Circle => "circle",
-            Self::Turning => "turning",
-            Self::Mixed => "mixed",
-            Self::Mechanical => "mechanical",
-            Self::Front => "front",
-            Self::Equivalence => "equivalence",
         }
     }
 }

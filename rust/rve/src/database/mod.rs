@@ -7,11 +7,9 @@
 //! | `block` | the blocks of a plan |
 //! | `table` | columns and schema: what stands in a row |
 //! | `recipe` | what a plan of any grains has to know |
-//! | `discs` | that, for plans of discs |
 //! | [`spheres`] | plan, rows and checks of spheres |
 //! | `grains` | whether a file holds discs or spheres |
 //! | `seed` | seeds of packings |
-//! | `violation` | a law that does not hold |
 //! | `kind` | names of kinds, ramps and paths |
 //! | [`paths`] | the increments of each path |
 //! | `rows` | the rows of one packing |
@@ -21,19 +19,14 @@
 //! | `provenance` | where the rows come from |
 //! | [`generate`](mod@generate) | makes the rows, on several threads |
 //! | [`offenders`] | a plan of new packings from a solver's queries outside a model's range |
-//! | [`dataset`] | rows with their provenance (where they come from) |
 //! | `read`(mod@read) | reading a database or CSV, or several files as one dataset |
 //! | [`export`] | CSV with a column dictionary |
 //! | [`csv_file`] | reading CSV |
-//! | `cell` | one value of a row |
 //! | [`check`] | exact laws on every row, statistics, noise floor |
 
 mod block;
-mod cell;
 pub mod check;
 pub mod csv_file;
-pub mod dataset;
-mod discs;
 pub mod export;
 pub mod generate;
 mod grains;
@@ -42,7 +35,7 @@ pub mod offenders;
 mod path_rows;
 pub mod paths;
 pub mod plan;
-mod provenance;
+pub(crate) mod provenance;
 mod read;
 mod recipe;
 pub mod record;
@@ -52,9 +45,7 @@ mod shard;
 pub mod spheres;
 mod store;
 pub mod table;
-mod violation;
 
-pub use dataset::Dataset;
 pub use export::export_csv;
 pub use generate::{Progress, Run, generate};
 pub use grains::{Grains, grains};
@@ -66,13 +57,38 @@ pub use recipe::Recipe;
 pub use record::Record;
 pub use shard::Shard;
 pub use spheres::{PathName, SpherePlan, SphereRecord};
-pub use violation::Violation;
 
+use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 /// Increased by one whenever the same plan and seed give other numbers. Databases of different versions cannot be
 /// mixed.
 pub const ENGINE_VERSION: i64 = 4;
+
+/// The rows of a database with their provenance.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Dataset<R = Record> {
+    /// In the order of packing, ramp and stop, whatever the order in the file, so that a model trained on them does not
+    /// depend on that.
+    pub records: Vec<R>,
+    pub provenance: BTreeMap<String, String>,
+}
+
+/// A law that a row does not obey.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Violation {
+    /// Name of the row, or of the part of the file, that violates the law.
+    pub row: String,
+    pub law: &'static str,
+    /// What was found.
+    pub found: String,
+}
+
+impl std::fmt::Display for Violation {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{}: {}: {}", self.row, self.law, self.found)
+    }
+}
 
 /// What can go wrong with plans and databases.
 #[derive(Debug, thiserror::Error)]

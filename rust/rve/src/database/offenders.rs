@@ -1,8 +1,8 @@
 //! Active learning: states in which a solver asked a model outside of its trained range (offenders) become a plan of
 //! new RVEs.
 
-use super::{DatabaseError, Plan, plan::Block};
-use crate::Compression;
+use super::{DatabaseError, Plan, Recipe, plan::Block};
+use crate::{Boundary, Compression};
 use serde::Deserialize;
 use sha2::{Digest, Sha256};
 use std::collections::BTreeMap;
@@ -129,7 +129,7 @@ impl Offenders {
             wanted.entry(kind).or_default().push(class);
         }
         let kinds = [Compression::Isotropic, Compression::Intermediate, Compression::Horizontal];
-        let paths = || like.paths.first().map(|block| block.boundary);
+        let paths = || like.paths.first().map(|_| Boundary::Periodic);
         let boundary = like.thermal.first().map(|block| block.boundary).or_else(paths).unwrap_or_default();
         let thermal = wanted.into_iter().map(|(kind, mut classes)| {
             classes.sort_unstable();
@@ -140,14 +140,10 @@ impl Offenders {
                 // rounding digits.
                 porosities: classes.iter().map(|class| *class as f64 / (1.0 / CLASS).round()).collect(),
                 compressions: vec![kinds[kind]],
-                packing_friction_angles: Vec::new(),
                 repeats: effort.repeats,
-                ramps: Vec::new(),
                 stops: STOPS.to_vec(),
-                return_stops: Vec::new(),
                 boundary,
-                slide: None,
-                release_walls: false,
+                ..Block::default()
             }
         });
         let plan = Plan {
@@ -174,7 +170,6 @@ impl Offenders {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Boundary;
 
     const LIKE: &str = "radius_min = 2e-3\nradius_max = 6e-3\nseed = 7\n[[thermal]]\ndiscs = 500\nboundary = \"periodic\"\n\
         porosities = [0.1]\ncompressions = [\"isotropic\"]\nrepeats = 1\nstops = [0.01]\n";

@@ -41,7 +41,7 @@ pub(super) fn follow_all(
 }
 
 /// The box from which the path goes on; or why it ends here.
-fn goes_on(simulation: Simulation, settled: Settled, stop: i64) -> Result<Simulation, String> {
+pub(super) fn goes_on<S>(simulation: S, settled: Settled, stop: i64) -> Result<S, String> {
     match settled.outcome {
         Outcome::Unjammed => Err(format!("the path ended at stop {stop}, without load")),
         Outcome::Settled | Outcome::Capped => Ok(simulation),

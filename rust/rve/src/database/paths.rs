@@ -1,9 +1,9 @@
 //! The paths of `[[paths]]`: the increments of strain that each consists of.
 
 use super::kind::RampName;
+use super::seed::seed_of;
 use crate::Strains;
 use crate::place::Random;
-use sha2::{Digest, Sha256};
 use std::f64::consts::PI;
 
 /// Thermal strains of `equivalence` [-], each applied from the packed state, with either sign.
@@ -104,7 +104,7 @@ fn probes(magnitudes: &[f64]) -> Vec<Strains> {
 /// The increments of a path, each relative to the state before it; of `equivalence`, relative to the packed state. `h`:
 /// size of an increment [-].
 fn steps(path: RampName, seed: u64, h: f64) -> Vec<Strains> {
-    let mut random = Random::new(path_seed(seed, path));
+    let mut random = Random::new(seed_of(seed, path.to_string().as_bytes()));
     let sense = if random.uniform(0.0, 1.0) < 0.5 { 1.0 } else { -1.0 };
     let h_signed = sense * h;
     match path {
@@ -130,13 +130,6 @@ fn steps(path: RampName, seed: u64, h: f64) -> Vec<Strains> {
     }
 }
 
-/// Seed of the random numbers of a path.
-fn path_seed(packing_seed: u64, path: RampName) -> u64 {
-    let mut bytes = packing_seed.to_le_bytes().to_vec();
-    bytes.extend(path.as_str().bytes());
-    Sha256::digest(&bytes).iter().take(8).fold(0u64, |value, &byte| value << 8 | u64::from(byte))
-}
-
 /// Extension along x (0) or y (1).
 fn along(axis: usize, size: f64) -> Strains {
     match axis {
@@ -147,8 +140,7 @@ fn along(axis: usize, size: f64) -> Strains {
 
 /// `factor` times the strains. Adding 0 makes 0 of −0, which would be written with its sign.
 fn times(factor: f64, strains: Strains) -> Strains {
-    let [thermal, xx, yy, xy] =
-        [strains.thermal, strains.xx, strains.yy, strains.xy].map(|strain| factor * strain + 0.0);
+    let [thermal, xx, yy, xy] = strains.parts().map(|strain| factor * strain + 0.0);
     Strains { thermal, xx, yy, xy }
 }
 
@@ -192,7 +184,7 @@ fn segments(random: &mut Random, h: f64, thermal: f64) -> Vec<Strains> {
         let parts: [f64; 4] = std::array::from_fn(|_| random.uniform(-1.0, 1.0));
         let direction =
             Strains { thermal: thermal * parts[0] + 0.0, xx: parts[1], yy: parts[2], xy: parts[3] };
-        let [t, xx, yy, xy] = [direction.thermal, direction.xx, direction.yy, direction.xy].map(f64::abs);
+        let [t, xx, yy, xy] = direction.parts().map(f64::abs);
         let largest = t.max(xx).max(yy).max(xy).max(f64::MIN_POSITIVE);
         steps.extend(std::iter::repeat_n(times(h / largest, direction), count));
     }

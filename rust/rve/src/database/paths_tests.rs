@@ -160,7 +160,7 @@ fn probes_stand_between_the_increments_and_the_path_goes_on_without_them() {
 fn paths_depend_on_seed_and_name() {
     assert_eq!(steps(RampName::Mixed, 5, H), steps(RampName::Mixed, 5, H));
     assert_ne!(steps(RampName::Mixed, 5, H), steps(RampName::Mixed, 6, H));
-    assert_ne!(path_seed(5, RampName::Mixed), path_seed(5, RampName::Mechanical));
+    assert_ne!(seed_of(5, b"mixed"), seed_of(5, b"mechanical"));
 }
 
 /// As the box itself: width, height and shear offset follow from strain to strain.

@@ -1,10 +1,12 @@
 //! A plan of packings and ramps: a TOML file with blocks `[[thermal]]`, `[[mechanics]]`, `[[wall_shear]]` and `[[paths]]`.
 
-use super::DatabaseError;
 use super::block::AnyBlock;
 use super::paths::{Planned, Steps, planned};
+use super::recipe::{Recipe, check_count};
+use super::record::Record;
+use super::rows::rows;
 use super::seed::packing_seed;
-use crate::slide::Slide;
+use super::{Dataset, ENGINE_VERSION, Violation, check};
 use crate::{Compression, Material, PackingSpec, Preparation, Relaxation};
 use serde::{Deserialize, Serialize};
 
@@ -49,7 +51,7 @@ pub struct Plan {
 }
 
 /// One packing of a plan.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Job {
     /// Index in the plan.
     pub packing: i64,
@@ -61,7 +63,6 @@ pub struct Job {
     /// Magnitudes, growing; see [`Block`]. Empty for paths.
     pub stops: Vec<f64>,
     pub return_stops: Vec<f64>,
-    pub slide: Slide,
     pub release_walls: bool,
     /// How paths are followed; none for ramps.
     pub steps: Option<Steps>,
@@ -104,19 +105,7 @@ impl Job {
     }
 }
 
-/// A plan with more packings is taken as a typing error: it would compute for months.
-const MAX_PACKINGS: u64 = 1_000_000;
-
 impl Plan {
-    /// Reads a plan. `file` names it in errors.
-    pub fn parse(text: &str, file: &str) -> Result<Self, DatabaseError> {
-        let problem = |problem: String| DatabaseError::Plan { file: file.to_string(), problem };
-        let mut plan: Self = toml::from_str(text).map_err(|error| problem(error.to_string()))?;
-        plan.text = text.to_string();
-        plan.check().map_err(problem)?;
-        Ok(plan)
-    }
-
     /// All blocks, with their number among the blocks of the same kind.
     fn blocks(&self) -> impl Iterator<Item = (usize, AnyBlock<'_>)> {
         let lists = [
@@ -129,42 +118,6 @@ impl Plan {
         });
         let paths = self.paths.iter().enumerate().map(|(k, block)| (k + 1, AnyBlock::Paths(block)));
         ramps.chain(paths)
-    }
-
-    fn check(&self) -> Result<(), String> {
-        self.material.check().map_err(|error| error.to_string())?;
-        for (number, block) in self.blocks() {
-            let within = |problem| format!("[[{}]] {number}: {problem}", block.kind().as_str());
-            block.check().map_err(within)?;
-        }
-        let packings = self.blocks().map(|(_, block)| block.packings().count()).fold(0, u64::saturating_add);
-        if packings > MAX_PACKINGS {
-            return Err(format!("{packings} packings, allowed: {MAX_PACKINGS}"));
-        }
-        let jobs = self.jobs();
-        if jobs.is_empty() {
-            return Err("at least one block of packings is needed".to_string());
-        }
-        jobs.iter().try_for_each(|job| job.spec.check().map_err(|error| error.to_string()))
-    }
-
-    /// The packings, in order of block, porosity, compression, packing friction, repeat.
-    pub fn jobs(&self) -> Vec<Job> {
-        let mut jobs = Vec::new();
-        for (_, block) in self.blocks() {
-            let packings = block.packings();
-            for &porosity in packings.porosities {
-                for &compression in packings.compressions {
-                    for &friction in &packings.frictions(&self.material) {
-                        for _ in 0..packings.repeats {
-                            let packing = jobs.len() as u64;
-                            jobs.push(self.job(packing, block, (porosity, compression, friction)));
-                        }
-                    }
-                }
-            }
-        }
-        jobs
     }
 
     fn job(
@@ -187,18 +140,7 @@ impl Plan {
         let aspect = if kind == Kind::WallShear { SHEAR_ASPECT } else { 1.0 };
         let preparation =
             Preparation { friction_angle: Some(friction_angle), aspect, ..Preparation::default() };
-        let job = Job {
-            packing: packing as i64,
-            kind,
-            spec,
-            preparation,
-            ramps: Vec::new(),
-            stops: Vec::new(),
-            return_stops: Vec::new(),
-            slide: Slide::default(),
-            release_walls: false,
-            steps: None,
-        };
+        let job = Job { packing: packing as i64, kind, spec, preparation, ..Job::default() };
         match block {
             AnyBlock::Paths(block) => Job { ramps: block.paths.clone(), steps: Some(block.steps()), ..job },
             AnyBlock::Ramps(kind, block) => {
@@ -208,7 +150,6 @@ impl Plan {
                     ramps: block.ramps(kind).to_vec(),
                     stops: block.stops.clone(),
                     return_stops: if given { block.return_stops.clone() } else { back() },
-                    slide: block.slide.unwrap_or_default(),
                     release_walls: block.release_walls,
                     ..job
                 }
@@ -216,14 +157,87 @@ impl Plan {
         }
     }
 
-    /// Rows that the plan makes: one for every stop of every packing.
-    pub fn rows(&self) -> usize {
-        self.jobs().iter().map(|job| job.rows().len()).sum()
-    }
-
     /// Mean of the radius distribution \[m\].
     pub fn mean_radius(&self) -> f64 {
         0.5 * (self.radius_min + self.radius_max)
+    }
+}
+
+impl Recipe for Plan {
+    type Row = Record;
+    type Job = Job;
+    const ENGINE_VERSION: i64 = ENGINE_VERSION;
+
+    fn check(&self) -> Result<(), String> {
+        self.material.check().map_err(|error| error.to_string())?;
+        for (number, block) in self.blocks() {
+            let within = |problem| format!("[[{}]] {number}: {problem}", block.kind());
+            block.check().map_err(within)?;
+        }
+        check_count(self.blocks().map(|(_, block)| block.packings().count()))?;
+        let jobs = self.jobs();
+        if jobs.is_empty() {
+            return Err("at least one block of packings is needed".to_string());
+        }
+        jobs.iter().try_for_each(|job| job.spec.check().map_err(|error| error.to_string()))
+    }
+
+    fn with_text(mut self, text: String) -> Self {
+        self.text = text;
+        self
+    }
+
+    fn text(&self) -> &str {
+        &self.text
+    }
+
+    fn grains(&self) -> Vec<(&'static str, String)> {
+        vec![
+            ("material", serde_json::json!(self.material).to_string()),
+            ("radius_distribution", "uniform".to_string()),
+            ("radius_min", self.radius_min.to_string()),
+            ("radius_max", self.radius_max.to_string()),
+            ("mean_radius", self.mean_radius().to_string()),
+        ]
+    }
+
+    /// The packings, in order of block, porosity, compression, packing friction, repeat.
+    fn jobs(&self) -> Vec<Job> {
+        let mut jobs = Vec::new();
+        for (_, block) in self.blocks() {
+            let packings = block.packings();
+            for &porosity in packings.porosities {
+                for &compression in packings.compressions {
+                    for &friction in &packings.frictions(&self.material) {
+                        for _ in 0..packings.repeats {
+                            let packing = jobs.len() as u64;
+                            jobs.push(self.job(packing, block, (porosity, compression, friction)));
+                        }
+                    }
+                }
+            }
+        }
+        jobs
+    }
+
+    fn packing(job: &Job) -> (i64, u64) {
+        (job.packing, job.spec.seed)
+    }
+
+    fn places(job: &Job) -> Vec<(RampName, i64)> {
+        job.rows()
+    }
+
+    fn cost(job: &Job) -> usize {
+        job.spec.discs * job.rows().len()
+    }
+
+    fn make(&self, job: &Job) -> Vec<Record> {
+        rows(self, job)
+    }
+
+    fn violations(dataset: &Dataset) -> Vec<Violation> {
+        check::violations(dataset)
     }
 }
 

@@ -86,7 +86,7 @@ pub(super) fn join_commits<'a>(lists: impl IntoIterator<Item = &'a str>) -> Stri
 }
 
 /// SHA-256, hexadecimal.
-pub(super) fn sha256(bytes: &[u8]) -> String {
+pub(crate) fn sha256(bytes: &[u8]) -> String {
     Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
 }
 

@@ -3,11 +3,15 @@
 use super::plan::Plan;
 use super::provenance::sha256;
 use super::spheres::SpherePlan;
-use super::table::Row;
+use super::table::{Place, Row};
 use super::{DatabaseError, Dataset, Violation};
+use serde::de::DeserializeOwned;
+
+/// A plan with more packings is taken as a typing error: it would compute for months.
+const MAX_PACKINGS: u64 = 1_000_000;
 
 /// A plan of packings.
-pub trait Recipe: Sized + Sync {
+pub trait Recipe: DeserializeOwned + Sync {
     type Row: Row;
     /// One packing.
     type Job: Sync;
@@ -15,11 +19,14 @@ pub trait Recipe: Sized + Sync {
     /// mixed.
     const ENGINE_VERSION: i64;
 
-    /// Reads a plan. `file` names it in errors.
+    /// The error names key, value and allowed range.
     ///
     /// # Errors
-    /// [`DatabaseError::Plan`].
-    fn parse(text: &str, file: &str) -> Result<Self, DatabaseError>;
+    /// The first thing that is wrong.
+    fn check(&self) -> Result<(), String>;
+    /// The plan with the text that it was read from.
+    #[must_use]
+    fn with_text(self, text: String) -> Self;
     /// The text that the plan was read from.
     fn text(&self) -> &str;
     /// Entries of the provenance that say what the grains are.
@@ -29,17 +36,46 @@ pub trait Recipe: Sized + Sync {
     /// Index of a packing in the plan, and its seed.
     fn packing(job: &Self::Job) -> (i64, u64);
     /// Every row that a packing has, in order.
-    fn places(job: &Self::Job) -> Vec<<Self::Row as Row>::Place>;
-    /// A measure of the time that a packing takes; the most expensive are made first.
-    fn cost(job: &Self::Job) -> usize;
+    fn places(job: &Self::Job) -> Vec<Place<Self::Row>>;
     /// The rows of a packing.
     fn make(&self, job: &Self::Job) -> Vec<Self::Row>;
     /// Violated laws of a dataset of such rows.
     fn violations(dataset: &Dataset<Self::Row>) -> Vec<Violation>;
 
+    /// A measure of the time that a packing takes; the most expensive are made first. Where all count the same, they are made in the
+    /// order of the plan, and its first part can be used before the rest is there.
+    fn cost(_: &Self::Job) -> usize {
+        0
+    }
+
+    /// Reads a plan. `file` names it in errors.
+    ///
+    /// # Errors
+    /// [`DatabaseError::Plan`].
+    fn parse(text: &str, file: &str) -> Result<Self, DatabaseError> {
+        let problem = |problem: String| DatabaseError::Plan { file: file.to_string(), problem };
+        let plan: Self = toml::from_str(text).map_err(|error| problem(error.to_string()))?;
+        plan.check().map_err(problem)?;
+        Ok(plan.with_text(text.to_string()))
+    }
+
+    /// Rows that the plan makes.
+    fn rows(&self) -> usize {
+        self.jobs().iter().map(|job| Self::places(job).len()).sum()
+    }
+
     /// SHA-256 of the plan's text, hexadecimal.
     fn hash(&self) -> String {
         sha256(self.text().as_bytes())
+    }
+}
+
+/// Refuses too many packings of blocks.
+pub(super) fn check_count(packings: impl Iterator<Item = u64>) -> Result<(), String> {
+    let packings = packings.fold(0, u64::saturating_add);
+    match packings > MAX_PACKINGS {
+        true => Err(format!("{packings} packings, allowed: {MAX_PACKINGS}")),
+        false => Ok(()),
     }
 }
 

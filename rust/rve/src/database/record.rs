@@ -1,18 +1,17 @@
 //! One row of the database: one state of one packing.
 
-use super::cell::Value;
 use super::kind::{Kind, RampName};
 use super::paths::Increment;
 use super::plan::Job;
-use super::table::{Column, Row, row};
+use super::table::row;
 use crate::slide::Sliding;
-use crate::{Averages, Boundary, Compression, Material, Outcome, RegionKind, Settled, Strains};
+use crate::{Averages, Boundary, Compression, Material, RegionKind, Settled, Strains};
 
 #[rustfmt::skip]
 row! {
     /// One state at one stop of a ramp; every stop of the plan has a row. Averages are absent when the stop was not
     /// reached. Meaning and unit of each field are those of [`COLUMNS`].
-    Record:
+    Record, "3", LATER, ramp: RampName;
     packing: i64, "INTEGER", "-", "index of the packing in the plan";
     kind: Kind, "TEXT", "-", "thermal: radii change in fixed walls; mechanics: walls move; wall_shear: bottom and top slip along the grains; paths: a periodic box follows paths of strain";
     discs: u64, "INTEGER", "-", "discs in the packing";
@@ -85,44 +84,6 @@ row! {
 /// Columns that files of schema 2 do not have; they are empty there.
 const LATER: [&str; 7] = ["from_stop", "step_thermal", "step_xx", "step_yy", "step_xy", "probe", "fabric_xy"];
 
-impl Row for Record {
-    const COLUMNS: &'static [Column] = COLUMNS;
-    const SCHEMA: &'static str = "3";
-    const LATER: &'static [&'static str] = &LATER;
-    type Place = (RampName, i64);
-
-    fn from_cells<'a>(
-        cell: impl Fn(usize) -> Result<Value<'a>, String>,
-    ) -> Result<Self, (&'static str, String)> {
-        Self::of_cells(cell)
-    }
-
-    fn packing(&self) -> i64 {
-        self.packing
-    }
-
-    fn place(&self) -> (RampName, i64) {
-        (self.ramp, self.stop)
-    }
-
-    /// Ramp, then for each ramp the stops outward, those on the negative side first.
-    fn order(&self) -> impl Ord {
-        (self.ramp, self.stop > 0, self.stop.unsigned_abs())
-    }
-
-    fn name_of(packing: i64, (ramp, stop): &(RampName, i64)) -> String {
-        format!("packing {packing}, ramp {}, stop {stop}", ramp.as_str())
-    }
-
-    fn seed(&self) -> u64 {
-        self.seed
-    }
-
-    fn has_failed(&self) -> bool {
-        self.failure.is_some()
-    }
-}
-
 /// Copies averages into the columns of the same name.
 macro_rules! copy {
     ($from:ident => $to:ident: $($name:ident)*) => {
@@ -163,7 +124,7 @@ impl Record {
         let mut record = initial.map_or_else(Self::default, Self::from_initial);
         if let Ok(state) = state {
             record.set_averages(&state.averages, material.young_modulus);
-            record.outcome = state.settled.outcome.as_str().to_string();
+            record.outcome = state.settled.outcome.to_string();
             record.steps = state.settled.steps;
             record.unbalanced = Some(state.settled.unbalanced);
             record.wall_friction = state.sliding.map(|sliding| sliding.friction);
@@ -173,6 +134,8 @@ impl Record {
             record.outcome = FAILED.to_string();
             record.failure = Some(reason.to_string());
         }
+        let step = place.increment.map(|increment| increment.step.parts());
+        let [step_thermal, step_xx, step_yy, step_xy] = [0, 1, 2, 3].map(|k| step.map(|parts| parts[k]));
         Self {
             packing: job.packing,
             kind: job.kind,
@@ -188,17 +151,16 @@ impl Record {
             strain_yy: place.strains.yy,
             strain_xy: place.strains.xy,
             from_stop: place.increment.map(|increment| increment.from_stop),
-            step_thermal: place.increment.map(|increment| increment.step.thermal),
-            step_xx: place.increment.map(|increment| increment.step.xx),
-            step_yy: place.increment.map(|increment| increment.step.yy),
-            step_xy: place.increment.map(|increment| increment.step.xy),
+            step_thermal,
+            step_xx,
+            step_yy,
+            step_xy,
             probe: place.increment.map(|increment| u64::from(increment.probe)),
             wall_slip: place.slip,
             region: match job.spec.boundary {
                 Boundary::Walls => RegionKind::default(),
                 Boundary::Periodic => RegionKind::Cell,
             }
-            .as_str()
             .to_string(),
             young_modulus: material.young_modulus,
             ..record
@@ -247,11 +209,6 @@ impl Record {
     /// Strains relative to the packed state.
     pub fn strains(&self) -> Strains {
         Strains { thermal: self.strain, xx: self.strain_xx, yy: self.strain_yy, xy: self.strain_xy }
-    }
-
-    /// Whether the state was reached and carries load.
-    pub fn carries_load(&self) -> bool {
-        self.outcome == Outcome::Settled.as_str() || self.outcome == Outcome::Capped.as_str()
     }
 }
 

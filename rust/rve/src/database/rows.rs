@@ -22,7 +22,7 @@ pub(super) fn rows(plan: &Plan, job: &Job) -> Vec<Record> {
     let averages = stopwatch::time(stopwatch::Stage::Averaging, || {
         homogenise(&packed.simulation, RegionKind::default())
     });
-    let shear = (job.kind == Kind::WallShear).then(|| at_rest(&packed.simulation, job.slide));
+    let shear = (job.kind == Kind::WallShear).then(|| at_rest(&packed.simulation));
     let state = State { settled: packed.settled, averages, sliding: shear };
     let mut walk = Walk { plan, job, packed: &packed, initial: &averages, ends: BTreeMap::new() };
     let start = place(RampName::Packed, (0, 0.0));
@@ -99,8 +99,8 @@ impl Walk<'_> {
                     let turn = self.job.stops_of(first).last().map_or(0.0, |&(_, strain)| strain);
                     (end, turn)
                 }
-                Some(Err(reason)) => return self.failed(stops, &format!("{}: {reason}", first.as_str())),
-                None => return self.failed(stops, &format!("{} was not made", first.as_str())),
+                Some(Err(reason)) => return self.failed(stops, &format!("{first}: {reason}")),
+                None => return self.failed(stops, &format!("{first} was not made")),
             },
         };
         // The strains of the path count from the state where it starts.
@@ -143,9 +143,7 @@ impl Walk<'_> {
             simulation.release_friction(Side::Bottom);
             simulation.release_friction(Side::Top);
         }
-        let ramp = slide(&mut simulation, &slips, (self.job.slide, self.plan.relaxation), |_, sliding| {
-            met.push(sliding)
-        });
+        let ramp = slide(&mut simulation, &slips, self.plan.relaxation, |_, sliding| met.push(sliding));
         self.records(stops, &ramp, &met)
     }
 

@@ -1,9 +1,8 @@
 //! Averages of a periodic box of spheres.
 
 use super::strain::{PLACES, Tensor};
-use msdd_beds::conductances::{Link, contact_links, near_pairs};
+use msdd_beds::conductances::{contact_links, gas_links, near_pairs};
 use msdd_beds::conductivity::{conductivity, mean};
-use msdd_beds::gas::unequal_conductance;
 use msdd_beds::solid::Solid;
 use msdd_spheres::{Cell, Simulation};
 
@@ -56,18 +55,7 @@ pub fn averages(simulation: &Simulation) -> Option<Averages> {
     let mut gas_conductivity = [0.0; 3];
     for (value, number) in gas_conductivity.iter_mut().zip(GAS_NUMBERS) {
         let distance = libm::exp(-number);
-        let link = |pair: &msdd_beds::conductances::Near| Link {
-            i: pair.i,
-            j: pair.j,
-            branch: pair.branch,
-            conductance: unequal_conductance(
-                1.0,
-                pair.radius,
-                pair.smaller,
-                pair.gap + distance * common.unwrap_or(pair.radius),
-            ),
-        };
-        let links: Vec<Link> = near.iter().map(link).collect();
+        let links = gas_links(&near, 1.0, |radius| distance * common.unwrap_or(radius));
         *value = mean(&conductivity(&links, count, volume)?.network);
     }
     Some(Averages {

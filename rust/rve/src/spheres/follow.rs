@@ -1,9 +1,10 @@
 //! Straining a periodic box of spheres, and rest after it.
 
 use super::strain::{Strain, over};
-use crate::Outcome;
 use crate::stopwatch::{self, Stage};
+use crate::{Outcome, Settled};
 use msdd_beds::averages::stress;
+use msdd_beds::conductivity::mean;
 use msdd_spheres::space::{Matrix, length, plus};
 use msdd_spheres::time_step::SAFETY;
 use msdd_spheres::{Failure, Partner, Simulation, StepChoice};
@@ -29,21 +30,11 @@ const MAX_UNJAMMED: u64 = 2_000;
 /// Steps between two checks.
 const LOOK_EVERY: u64 = 50;
 
-/// How a box came to rest.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Rest {
-    pub outcome: Outcome,
-    /// Steps of straining and rest.
-    pub steps: u64,
-    /// Mean resultant over mean contact force \[-\].
-    pub unbalanced: f64,
-}
-
 /// Strains the box along a straight line by `step`, which is relative to its present state, and lets it come to rest.
 ///
 /// # Errors
 /// The [`Failure`] of a run.
-pub fn advance(simulation: &mut Simulation, step: Strain) -> Result<Rest, Failure> {
+pub fn advance(simulation: &mut Simulation, step: Strain) -> Result<Settled, Failure> {
     let since = simulation.steps;
     stopwatch::time(Stage::Strain, || strain(simulation, step))?;
     stopwatch::time(Stage::StrainSettle, || rest(simulation, since))
@@ -89,7 +80,7 @@ fn gradient(step: Strain, done: f64, per_time: f64) -> Matrix {
 ///
 /// # Errors
 /// The [`Failure`] of a run.
-pub fn rest(simulation: &mut Simulation, since: u64) -> Result<Rest, Failure> {
+pub fn rest(simulation: &mut Simulation, since: u64) -> Result<Settled, Failure> {
     let (end, mut unloaded) = (simulation.steps + MAX_STEPS, 0);
     loop {
         simulation.drag = DRAG * per_time(simulation, UNJAMMED_PRESSURE);
@@ -104,7 +95,7 @@ pub fn rest(simulation: &mut Simulation, since: u64) -> Result<Rest, Failure> {
             _ => continue,
         };
         simulation.drag = 0.0;
-        return Ok(Rest { outcome, steps: simulation.steps - since, unbalanced });
+        return Ok(Settled { outcome, steps: simulation.steps - since, unbalanced });
     }
 }
 
@@ -116,8 +107,7 @@ fn per_time(simulation: &Simulation, least: f64) -> f64 {
 
 /// p = tr σ/3 \[Pa\].
 pub(super) fn pressure(simulation: &Simulation) -> f64 {
-    let stress = stress(simulation);
-    (stress[0][0] + stress[1][1] + stress[2][2]) / 3.0
+    mean(&stress(simulation))
 }
 
 /// Mean |resultant of the contact forces| over the spheres / (mean normal contact force + floor) \[-\].

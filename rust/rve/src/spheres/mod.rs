@@ -20,7 +20,7 @@ pub mod strain;
 pub mod turn;
 
 pub use averages::{Averages, GAS_NUMBERS, averages};
-pub use follow::{Rest, advance};
+pub use follow::advance;
 pub use prepare::{Preparation, PrepareError, Prepared, prepare};
 pub use strain::{Strain, Tensor};
 pub use turn::turned;

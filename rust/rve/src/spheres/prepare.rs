@@ -1,9 +1,10 @@
 //! A box of spheres that is packed and then brought to the pressure at which paths begin.
 
-use super::follow::{Rest, UNJAMMED_PRESSURE, advance, pressure, rest};
+use super::follow::{UNJAMMED_PRESSURE, advance, pressure, rest};
 use super::material;
 use super::strain::Strain;
-use crate::message::number;
+use crate::Settled;
+use crate::message::{number, range};
 use crate::stopwatch::{self, Stage};
 use msdd_beds::sizes::Sizes;
 use msdd_beds::{BedError, Packing, pack_along, shake};
@@ -57,7 +58,7 @@ pub struct Preparation {
 #[derive(Clone, Debug)]
 pub struct Prepared {
     pub simulation: Simulation,
-    pub rest: Rest,
+    pub rest: Settled,
 }
 
 /// Why a box was not prepared.
@@ -74,33 +75,25 @@ pub enum PrepareError {
 }
 
 impl Preparation {
-    fn check(&self) -> Result<(), PrepareError> {
-        let inside = |value: f64, [least, most]: [f64; 2]| (least..=most).contains(&value);
-        let text = |[least, most]: [f64; 2]| format!("{least:?} to {most:?}");
-        let spheres = SPHERES.map(|count| count as f64);
-        let (frictions, shaking) = ([0.0, MAX_FRICTION], self.shaking);
+    /// The error names key, value and allowed range.
+    pub(crate) fn check(&self) -> Result<(), PrepareError> {
+        let shaking = if self.shaking == 0.0 { SHAKING[0] } else { self.shaking };
         let parameters = [
-            ("spheres", self.spheres as f64, inside(self.spheres as f64, spheres), text(spheres)),
-            ("friction", self.friction, inside(self.friction, frictions), text(frictions)),
+            ("spheres", self.spheres as f64, SPHERES.map(|count| count as f64)),
+            ("friction", self.friction, [0.0, MAX_FRICTION]),
             // A packing whose friction is lowered afterwards collapses.
-            (
-                "packing_friction",
-                self.packing_friction,
-                inside(self.packing_friction, [0.0, self.friction]),
-                format!("0 to the friction, {}", self.friction),
-            ),
-            (
-                "shaking",
-                shaking,
-                shaking == 0.0 || inside(shaking, SHAKING),
-                format!("0, or {}", text(SHAKING)),
-            ),
-            ("pressure", self.pressure, inside(self.pressure, PACKED_PRESSURES), text(PACKED_PRESSURES)),
+            ("packing_friction", self.packing_friction, [0.0, self.friction]),
+            ("shaking", shaking, SHAKING),
+            ("pressure", self.pressure, PACKED_PRESSURES),
         ];
-        match parameters.into_iter().find(|(_, _, good, _)| !good) {
-            Some((key, value, _, allowed)) => Err(PrepareError::Parameter { key, value, allowed }),
-            None => Ok(()),
-        }
+        let wrong = parameters.into_iter().find(|(_, value, [least, most])| !(least..=most).contains(&value));
+        let Some((key, value, ends)) = wrong else { return Ok(()) };
+        let allowed = match key {
+            "packing_friction" => format!("0 to the friction, {}", self.friction),
+            "shaking" => format!("0, or {}", range(ends)),
+            _ => range(ends),
+        };
+        Err(PrepareError::Parameter { key, value, allowed })
     }
 }
 
@@ -141,8 +134,8 @@ fn bring_to(
     simulation: &mut Simulation,
     target: f64,
     rates: [f64; 3],
-    mut rest: Rest,
-) -> Result<Rest, PrepareError> {
+    mut rest: Settled,
+) -> Result<Settled, PrepareError> {
     let power = |p: f64| libm::pow(p.max(0.0), 2.0 / 3.0);
     let mut scale = 1.0;
     for _ in 0..ATTEMPTS {

@@ -6,7 +6,7 @@
 //! The columns of the contacts are the friction history: tangential force on j and radius of the contact when it was stored.
 
 use crate::state_file::{
-    ANY, POSITIVE, SCHEMA, StateError, check_column, check_digest, digest, dimension, is_allowed,
+    ANY, POSITIVE, SCHEMA, StateError, check_column, check_lengths, digest, is_allowed, read,
 };
 use msdd_spheres::state::{Friction, State};
 use msdd_spheres::{Boundary, Cell, Material, Partner, Simulation, SmallCell, Sphere, Surface, Wall};
@@ -27,7 +27,7 @@ struct File {
     /// The grains: its entries follow in a table of their own.
     material: Material,
     /// Of a box that repeats itself: its entries follow; absent between walls alone.
-    #[serde(rename = "box", default, skip_serializing_if = "Option::is_none")]
+    #[serde(rename = "box", skip_serializing_if = "Option::is_none")]
     cell: Option<Box>,
     /// List of walls, each with `point`, `surface` (`flat` with `normal`, or `cylinder` with `axis`, `radius`, `growth`, `stretch`) and
     /// `velocity` [m, –, m/s].
@@ -42,7 +42,7 @@ struct File {
     #[serde(default)]
     run: Run,
     /// SHA-256 over the values; take it out after editing a file by hand.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(skip_serializing_if = "Option::is_none")]
     checksum: Option<String>,
 }
 
@@ -73,28 +73,20 @@ struct Particles {
     /// Mass \[kg\].
     mass: Vec<f64>,
     /// Velocity along x; in a box that deforms, relative to it [m/s].
-    #[serde(default)]
     vx: Option<Vec<f64>>,
     /// Along y [m/s].
-    #[serde(default)]
     vy: Option<Vec<f64>>,
     /// Along z [m/s].
-    #[serde(default)]
     vz: Option<Vec<f64>>,
     /// Angular velocity about x [rad/s].
-    #[serde(default)]
     wx: Option<Vec<f64>>,
     /// About y [rad/s].
-    #[serde(default)]
     wy: Option<Vec<f64>>,
     /// About z [rad/s].
-    #[serde(default)]
     wz: Option<Vec<f64>>,
     /// Temperature \[K\].
-    #[serde(default)]
     temperature: Option<Vec<f64>>,
     /// Radius at strain 0; absent: the radius \[m\].
-    #[serde(default)]
     reference_radius: Option<Vec<f64>>,
 }
 
@@ -195,13 +187,7 @@ fn file(state: State) -> File {
 /// # Errors
 /// [`StateError`] names what is wrong, the particle or contact, and the value.
 pub fn from_json(text: &str) -> Result<Simulation, StateError> {
-    let found = dimension(text)?;
-    if found != 3 {
-        return Err(StateError::Dimension { found, allowed: "3, the state of spheres" });
-    }
-    let mut file: File = serde_json::from_str(text)?;
-    let checksum = file.checksum.take();
-    check_digest(&file, checksum)?;
+    let file: File = read(text, (3, "3, the state of spheres"), |file: &mut File| file.checksum.take())?;
     file.material.check()?;
     let spheres = spheres(&file.particles)?;
     let boundary = boundary(file.cell, file.walls)?;
@@ -325,9 +311,7 @@ fn friction(columns: &Contacts, count: usize, boundary: &Boundary) -> Result<Vec
         ("contacts.tangential_force", columns.tangential_force.len()),
         ("contacts.contact_radius", columns.contact_radius.len()),
     ];
-    if let Some((column, found)) = lengths.into_iter().find(|(_, found)| *found != expected) {
-        return Err(StateError::Length { column, found, expected });
-    }
+    check_lengths(lengths, expected)?;
     let walls = boundary.walls().len() as i64;
     let of = |contact: usize| {
         let problem = |problem: String| Err(StateError::Contact { contact, problem });

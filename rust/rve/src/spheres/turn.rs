@@ -42,8 +42,8 @@ pub fn turned_tensor([xx, yy, zz, xy, xz, yz]: Tensor) -> Tensor {
 }
 
 /// A symmetric tensor of a turned box in the axes of the box that was turned.
-pub fn turned_back([xx, yy, zz, xy, xz, yz]: Tensor) -> Tensor {
-    [yy, zz, xx, yz, xy, xz]
+pub fn turned_back(tensor: Tensor) -> Tensor {
+    turned_tensor(turned_tensor(tensor))
 }
 
 /// A strain along the axes in the turned axes.

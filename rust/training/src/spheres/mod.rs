@@ -5,7 +5,7 @@ mod same;
 mod tracks;
 
 use crate::error::TrainingError;
-use msdd_rve::database::{SpherePlan, read_spheres};
+use msdd_rve::database::{Recipe, SpherePlan, read_spheres};
 use msdd_surrogate::DatabaseProvenance;
 use msdd_surrogate::document::hash;
 use msdd_surrogate::spheres::tracks::{Track, set_aside};

@@ -87,7 +87,7 @@ pub fn tracks(records: &[SphereRecord]) -> Vec<Track> {
             first.spheres
         );
         let is_isotropic = first.compression == SphereCompression::Isotropic;
-        let (name, spheres) = (path.as_str().to_string(), first.spheres as usize);
+        let (name, spheres) = (path.to_string(), first.spheres as usize);
         let packed = *packed.get(&packing)?;
         let weight = 1.0;
         (!steps.is_empty()).then_some(Track {

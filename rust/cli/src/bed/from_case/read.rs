@@ -186,7 +186,7 @@ impl<'a> Reader<'a> {
     fn gas(&self) -> Result<GasKeys, CliError> {
         let spheres = self.spheres()?;
         let name = spheres.text("gas")?;
-        let known = GasName::ALL.into_iter().find(|gas| gas.as_str() == name);
+        let known = GasName::ALL.into_iter().find(|gas| gas.to_string() == name);
         let known =
             known.ok_or_else(|| spheres.refuse("gas", &name, "air, nitrogen, helium, argon, vacuum"))?;
         Ok(GasKeys {

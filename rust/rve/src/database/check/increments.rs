@@ -1,11 +1,10 @@
 //! Laws of the rows of paths: each follows from the row that its increment starts from.
 
-use super::planned::{jobs, tolerance, within};
+use super::planned::{Found, jobs, named, tolerance, within};
 use crate::Strains;
 use crate::database::kind::{Kind, RampName};
 use crate::database::paths::Increment;
 use crate::database::plan::Job;
-use crate::database::table::Row;
 use crate::database::{Dataset, Plan, Record, Violation};
 use std::collections::BTreeMap;
 
@@ -18,21 +17,17 @@ pub(super) fn violations(dataset: &Dataset) -> Vec<Violation> {
     let is_path = |record: &&Record| record.kind == Kind::Paths && record.ramp != RampName::Packed;
     let rows: Rows = records.iter().map(|r| ((r.packing, r.ramp, r.stop), r)).collect();
     let mut violations = Vec::new();
-    let mut add = |record: &Record, found: Vec<(&'static str, String)>| {
-        let of_row = |(law, found)| Violation { row: record.name(), law, found };
-        violations.extend(found.into_iter().map(of_row));
-    };
     for record in records.iter().filter(|record| !is_path(record)) {
         let steps = [record.step_thermal, record.step_xx, record.step_yy, record.step_xy];
         if (record.from_stop, record.probe, steps) != (None, None, [None; 4]) {
             let text = format!("from_stop {:?}, steps {steps:?}", record.from_stop);
-            add(record, vec![("only rows of paths have an increment", text)]);
+            violations.extend(named(record, vec![("only rows of paths have an increment", text)]));
         }
     }
     // A plan that cannot be read is a violation of its own.
     let planned = planned(&jobs::<Plan>(dataset).unwrap_or_default());
     for record in records.iter().filter(is_path) {
-        add(record, row_laws(record, &rows, &planned, tolerance));
+        violations.extend(named(record, row_laws(record, &rows, &planned, tolerance)));
     }
     violations
 }
@@ -51,16 +46,12 @@ fn planned(jobs: &[Job]) -> Plans {
     plans
 }
 
-fn parts(strains: Strains) -> [f64; 4] {
-    [strains.thermal, strains.xx, strains.yy, strains.xy]
-}
-
 /// Whether all parts agree within the tolerance, relative to each part.
 fn agree(a: Strains, b: Strains, tolerance: f64) -> bool {
-    parts(a).iter().zip(parts(b)).all(|(a, b)| within(a - b, tolerance * b.abs().max(tolerance)))
+    a.parts().iter().zip(b.parts()).all(|(a, b)| within(a - b, tolerance * b.abs().max(tolerance)))
 }
 
-fn row_laws(record: &Record, rows: &Rows, plans: &Plans, tolerance: f64) -> Vec<(&'static str, String)> {
+fn row_laws(record: &Record, rows: &Rows, plans: &Plans, tolerance: f64) -> Found {
     let Some(increment) = record.increment().filter(|_| record.probe.is_some_and(|probe| probe < 2)) else {
         let text = format!("from_stop {:?}, probe {:?}", record.from_stop, record.probe);
         return vec![("a row of a path has its increment", text)];
@@ -98,7 +89,7 @@ fn row_laws(record: &Record, rows: &Rows, plans: &Plans, tolerance: f64) -> Vec<
 
 /// Whether `now` is what `from` and then `step` give.
 fn strains_add_up(from: Strains, step: Strains, now: Strains, tolerance: f64) -> bool {
-    let off = parts(from.then(step)).into_iter().zip(parts(now)).map(|(a, b)| a - b);
+    let off = from.then(step).parts().into_iter().zip(now.parts()).map(|(a, b)| a - b);
     off.into_iter().all(|off| within(off, tolerance))
 }
 

@@ -2,8 +2,9 @@
 
 use crate::database::provenance::DIGITS;
 use crate::database::recipe::Recipe;
-use crate::database::table::Row;
-use crate::database::{DatabaseError, Dataset, Shard, Violation};
+use crate::database::record::FAILED;
+use crate::database::table::{Place, Row};
+use crate::database::{DatabaseError, Dataset, Violation};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Relative tolerance of the laws; it covers the rounding of exports to nine digits.
@@ -24,15 +25,45 @@ pub fn within(off: f64, tolerance: f64) -> bool {
     off.abs() <= tolerance
 }
 
-/// The packings of the plan in the provenance, as far as they belong to the shard of this file.
-pub fn jobs<P: Recipe>(dataset: &Dataset<P::Row>) -> Result<Vec<P::Job>, DatabaseError> {
-    let text = dataset.provenance.get("plan").map_or("", String::as_str);
-    let plan = P::parse(text, "the plan in the provenance")?;
-    let shard: Shard = dataset.provenance.get("shard").and_then(|text| text.parse().ok()).unwrap_or_default();
-    Ok(plan.jobs().into_iter().filter(|job| shard.holds(P::packing(job).0)).collect())
+/// Violated laws of a row, each with what was found.
+pub type Found = Vec<(&'static str, String)>;
+
+/// Violations of the laws of a row.
+pub fn named<R: Row>(record: &R, found: Found) -> impl Iterator<Item = Violation> + use<R> {
+    let row = record.name();
+    found.into_iter().map(move |(law, found)| Violation { row: row.clone(), law, found })
 }
 
-/// Rows and seeds must be those of the plan in the provenance, as far as it belongs to the shard of this file.
+/// What a row violates whose state was not reached; none of other rows.
+pub fn failed<R: Row>(record: &R, has_averages: bool) -> Option<Found> {
+    let (outcome, failure) = (record.outcome(), record.failure());
+    if outcome != FAILED && failure.is_none() {
+        return None;
+    }
+    let sound = outcome == FAILED && failure.is_some() && !has_averages;
+    let text = format!("outcome {outcome}, failure {failure:?}");
+    Some(if sound { Vec::new() } else { vec![("a failure has a reason and no averages", text)] })
+}
+
+/// Laws by which a number is 0, with its scale; and laws that hold or do not, with a number to show.
+pub fn found(
+    zeros: &[(&'static str, f64, f64)],
+    holds: &[(&'static str, bool, f64)],
+    tolerance: f64,
+) -> Found {
+    let off = zeros.iter().filter(|(_, off, scale)| !within(*off, 4.0 * tolerance * scale));
+    let off = off.map(|(law, off, _)| (*law, format!("off by {off:.3e}")));
+    let holds = holds.iter().filter(|(_, holds, _)| !holds);
+    off.chain(holds.map(|(law, _, value)| (*law, value.to_string()))).collect()
+}
+
+/// The packings of the plan in the provenance.
+pub fn jobs<P: Recipe>(dataset: &Dataset<P::Row>) -> Result<Vec<P::Job>, DatabaseError> {
+    let text = dataset.provenance.get("plan").map_or("", String::as_str);
+    Ok(P::parse(text, "the plan in the provenance")?.jobs())
+}
+
+/// Rows and seeds must be those of the plan in the provenance.
 pub fn plan_laws<P: Recipe>(dataset: &Dataset<P::Row>) -> Vec<Violation> {
     let violation = |row: String, law, found: &str| Violation { row, law, found: found.to_string() };
     let jobs = match jobs::<P>(dataset) {
@@ -54,7 +85,7 @@ pub fn plan_laws<P: Recipe>(dataset: &Dataset<P::Row>) -> Vec<Violation> {
             violations.push(violation(record.name(), "the seed is the plan's", &record.seed().to_string()));
         }
     }
-    let name = |(packing, place): &(i64, <P::Row as Row>::Place)| P::Row::name_of(*packing, place);
+    let name = |&(packing, place): &(i64, Place<P::Row>)| P::Row::name_of(packing, place);
     let missing =
         expected.difference(&found).map(|row| violation(name(row), "every row of the plan", "absent"));
     let foreign =

@@ -24,6 +24,12 @@ pub struct Mean {
 }
 
 impl Mean {
+    pub(crate) fn of(count: u64, grains: &'static str, quantity: String, values: &[f64]) -> Self {
+        let packings = values.len();
+        let standard_error = (variance(values) / packings.max(1) as f64).sqrt();
+        Self { count, grains, quantity, packings, mean: mean(values), standard_error }
+    }
+
     /// A violation when the mean is farther off zero than chance explains.
     pub(crate) fn violation(&self) -> Option<Violation> {
         let off = self.mean / self.standard_error;
@@ -62,11 +68,8 @@ pub(super) fn symmetry(records: &[Record]) -> Vec<Mean> {
         for (quantity, value) in quantities {
             let isotropic = rows.iter().filter(|r| r.compression == Compression::Isotropic);
             let values: Vec<f64> = isotropic.filter_map(|r| value(r)).collect();
-            let packings = values.len();
-            let standard_error = (variance(&values) / packings.max(1) as f64).sqrt();
-            if packings > 2 {
-                let (count, grains, quantity) = (discs, "discs", quantity.to_string());
-                means.push(Mean { count, grains, quantity, packings, mean: mean(&values), standard_error });
+            if values.len() > 2 {
+                means.push(Mean::of(discs, "discs", quantity.to_string(), &values));
             }
         }
     }

@@ -1,6 +1,6 @@
 use super::*;
 use crate::database::plan::RampName;
-use crate::database::{Plan, Record, Run, generate, read};
+use crate::database::{Plan, Recipe, Record, Run, generate, read};
 use std::ops::ControlFlow;
 use std::sync::OnceLock;
 
@@ -36,7 +36,6 @@ fn made(plan: &str, name: &str) -> Dataset {
 fn a_generated_database_is_sound() {
     let report = check(&dataset());
     assert_eq!(report.violations, []);
-    assert_eq!(report.rows, 16 * 3 + 5);
     assert!(report.symmetry.iter().all(|mean| mean.packings == 16 && mean.count == 40));
 }
 
@@ -99,7 +98,7 @@ fn every_broken_law_of_paths_is_found_and_its_row_named() {
         let mut damaged = paths();
         damage(of_path(&mut damaged, ramp, stop));
         let violations = check(&damaged).violations;
-        let row = format!("packing 1, ramp {}, stop {stop}", ramp.as_str());
+        let row = format!("packing 1, ramp {ramp}, stop {stop}");
         assert!(violations.iter().any(|v| v.law == law && v.row == row), "{law}: {violations:?}");
     }
 }

@@ -117,7 +117,7 @@ fn pairs(records: &[Record]) -> Vec<Pair<'_>> {
 
 impl Pair<'_> {
     fn is_settled(&self) -> bool {
-        [self.thermal, self.twin].iter().all(|r| r.outcome == Outcome::Settled.as_str())
+        [self.thermal, self.twin].iter().all(|r| r.outcome == Outcome::Settled.to_string())
     }
 
     fn solid_fraction(&self, tolerance: f64) -> Option<Violation> {

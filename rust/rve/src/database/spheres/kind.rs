@@ -57,6 +57,8 @@ pub enum PathName {
     Equivalence,
 }
 
+msdd_beds::named!(PathName);
+
 impl PathName {
     /// The paths that a plan may name.
     pub const ALL: [Self; 8] = [
@@ -69,19 +71,4 @@ impl PathName {
         Self::Mixed,
         Self::Equivalence,
     ];
-
-    /// The name in plans and rows.
-    pub fn as_str(self) -> &'static str {
-        match self {
-            Self::Packed => "packed",
-            Self::Isotropic => "isotropic",
-            Self::Thermal => "thermal",
-            Self::Uniaxial => "uniaxial",
-            Self::Biaxial => "biaxial",
-            Self::Pressed => "pressed",
-            Self::Shear => "shear",
-            Self::Mixed => "mixed",
-            Self::Equivalence => "equivalence",
-        }
-    }
 }

@@ -9,14 +9,12 @@
 //! | `rows` | the rows of one packing |
 //! | `free_axis` | boxes that keep their stress along one axis |
 //! | [`check`] | exact laws on every row |
-//! | `recipe` | what is common to all plans |
 
 pub mod check;
 mod free_axis;
 pub mod kind;
 pub mod paths;
 pub mod plan;
-mod recipe;
 pub mod record;
 mod rows;
 

@@ -4,9 +4,9 @@
 //! increment of a path is `FIRST` times (p/E*)^(2/3) at most, and the following ones grow to the size that the plan says.
 
 use super::kind::PathName;
+use crate::database::seed::seed_of;
 use crate::place::Random;
 use crate::spheres::Strain;
-use sha2::{Digest, Sha256};
 
 /// Largest first increment over (p/E*)^(2/3).
 const FIRST: f64 = 0.5;
@@ -77,7 +77,7 @@ pub fn planned(path: PathName, steps: &Steps) -> Vec<Planned> {
     if path == PathName::Equivalence {
         return equivalence(steps);
     }
-    let mut random = Random::new(path_seed(steps.seed, path));
+    let mut random = Random::new(seed_of(steps.seed, path.to_string().as_bytes()));
     let (targets, free_axis) = match path {
         PathName::Mixed => (mixed(&mut random, steps), None),
         path => {
@@ -98,13 +98,6 @@ pub fn planned(path: PathName, steps: &Steps) -> Vec<Planned> {
         }
     };
     (1..).zip(targets).map(row).collect()
-}
-
-/// Seed of the random numbers of a path.
-fn path_seed(packing_seed: u64, path: PathName) -> u64 {
-    let mut bytes = packing_seed.to_le_bytes().to_vec();
-    bytes.extend(path.as_str().bytes());
-    Sha256::digest(&bytes).iter().take(8).fold(0u64, |value, &byte| value << 8 | u64::from(byte))
 }
 
 /// A whole number from 0 to `count` − 1.

@@ -1,11 +1,14 @@
 //! A plan of packings of spheres and of the paths that they follow: a TOML file with blocks `[[spheres]]`.
 
+use super::check;
 use super::kind::{PathName, SphereCompression};
 use super::paths::{Planned, Steps, planned};
-use crate::database::DatabaseError;
+use super::record::SphereRecord;
+use super::rows::rows;
+use crate::database::recipe::{Recipe, check_count};
 use crate::database::seed::packing_seed;
+use crate::database::{Dataset, Violation};
 use crate::spheres::Preparation;
-use crate::spheres::prepare::{MAX_FRICTION, PACKED_PRESSURES, SHAKING, SPHERES};
 use msdd_beds::sizes::Sizes;
 use serde::{Deserialize, Serialize};
 
@@ -16,9 +19,6 @@ const POISSON_RATIOS: [f64; 2] = [0.0, 0.5];
 const RESTITUTIONS: [f64; 2] = [0.001, 1.0];
 /// Times that a path may go there and back.
 const CYCLES: [u32; 2] = [1, 1000];
-/// A plan with more packings is taken as a typing error: it would compute for months.
-const MAX_PACKINGS: u64 = 1_000_000;
-
 /// A plan: blocks of packings, each of which follows paths.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -49,7 +49,6 @@ pub struct SphereBlock {
     pub spheres: usize,
     /// Distribution of the diameters: `uniform`, `normal`, `log_normal` or `sieve`, as `sizes` of `bed.toml`. Lengths are over their
     /// Sauter mean. The law is not trained on unequal spheres. Default: equal spheres.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub sizes: Option<Sizes>,
     /// Frictions while the box closes: 0 packs densest (0.63 to 0.64 of the space), 0.3 looser (0.58). Not above `friction`: a
     /// packing whose friction falls collapses. Allowed: 0 to `friction`. Default: `friction` alone.
@@ -139,63 +138,6 @@ impl SpherePlan {
         text.parse::<toml::Table>().is_ok_and(|table| table.contains_key("spheres"))
     }
 
-    /// Reads a plan. `file` names it in errors.
-    ///
-    /// # Errors
-    /// [`DatabaseError::Plan`].
-    pub fn parse(text: &str, file: &str) -> Result<Self, DatabaseError> {
-        let problem = |problem: String| DatabaseError::Plan { file: file.to_string(), problem };
-        let mut plan: Self = toml::from_str(text).map_err(|error| problem(error.to_string()))?;
-        plan.text = text.to_string();
-        plan.check().map_err(problem)?;
-        Ok(plan)
-    }
-
-    fn check(&self) -> Result<(), String> {
-        if !(0.0..=MAX_FRICTION).contains(&self.friction) {
-            return Err(format!("friction: {}, allowed: 0 to {MAX_FRICTION}", self.friction));
-        }
-        for (key, value, [least, most]) in [
-            ("poisson_ratio", self.poisson_ratio, POISSON_RATIOS),
-            ("restitution", self.restitution, RESTITUTIONS),
-        ] {
-            if !(least..=most).contains(&value) {
-                return Err(format!("{key}: {value}, allowed: {least} to {most}"));
-            }
-        }
-        if self.spheres.is_empty() {
-            return Err("at least one block of packings is needed".to_string());
-        }
-        for (block, number) in self.spheres.iter().zip(1..) {
-            block.check(self.friction).map_err(|problem| format!("[[spheres]] {number}: {problem}"))?;
-        }
-        let packings = self.spheres.iter().map(|block| block.count(self.friction));
-        let packings = packings.fold(0, u64::saturating_add);
-        match packings > MAX_PACKINGS {
-            true => Err(format!("{packings} packings, allowed: {MAX_PACKINGS}")),
-            false => Ok(()),
-        }
-    }
-
-    /// The packings, in order of block, repeat, friction, compression, pressure: so that any first part of a block has all
-    /// kinds.
-    pub fn jobs(&self) -> Vec<SphereJob> {
-        let mut jobs = Vec::new();
-        for block in &self.spheres {
-            for _ in 0..block.repeats {
-                for &packing_friction in &block.frictions(self.friction) {
-                    for &compression in &block.compressions {
-                        for &pressure in &block.pressures {
-                            let packing = jobs.len() as u64;
-                            jobs.push(self.job(packing, block, (packing_friction, compression, pressure)));
-                        }
-                    }
-                }
-            }
-        }
-        jobs
-    }
-
     fn job(
         &self,
         packing: u64,
@@ -222,10 +164,83 @@ impl SpherePlan {
             steps: Steps { seed, pressure, strain: block.strain, size: block.step, cycles: block.cycles },
         }
     }
+}
 
-    /// Rows that the plan makes.
-    pub fn rows(&self) -> usize {
-        self.jobs().iter().map(|job| job.rows().len()).sum()
+impl Recipe for SpherePlan {
+    type Row = SphereRecord;
+    type Job = SphereJob;
+    const ENGINE_VERSION: i64 = 1;
+
+    fn check(&self) -> Result<(), String> {
+        for (key, value, [least, most]) in [
+            ("poisson_ratio", self.poisson_ratio, POISSON_RATIOS),
+            ("restitution", self.restitution, RESTITUTIONS),
+        ] {
+            if !(least..=most).contains(&value) {
+                return Err(format!("{key}: {value}, allowed: {least} to {most}"));
+            }
+        }
+        if self.spheres.is_empty() {
+            return Err("at least one block of packings is needed".to_string());
+        }
+        for (block, number) in self.spheres.iter().zip(1..) {
+            block.check().map_err(|problem| format!("[[spheres]] {number}: {problem}"))?;
+        }
+        check_count(self.spheres.iter().map(|block| block.count(self.friction)))?;
+        self.jobs().iter().try_for_each(|job| job.preparation.check().map_err(|error| error.to_string()))
+    }
+
+    fn with_text(mut self, text: String) -> Self {
+        self.text = text;
+        self
+    }
+
+    fn text(&self) -> &str {
+        &self.text
+    }
+
+    fn grains(&self) -> Vec<(&'static str, String)> {
+        let material = serde_json::json!({
+            "friction": self.friction,
+            "poisson_ratio": self.poisson_ratio,
+            "restitution": self.restitution,
+        });
+        vec![("grains", "spheres".to_string()), ("material", material.to_string())]
+    }
+
+    /// The packings, in order of block, repeat, friction, compression, pressure: so that any first part of a block has all
+    /// kinds.
+    fn jobs(&self) -> Vec<SphereJob> {
+        let mut jobs = Vec::new();
+        for block in &self.spheres {
+            for _ in 0..block.repeats {
+                for &packing_friction in &block.frictions(self.friction) {
+                    for &compression in &block.compressions {
+                        for &pressure in &block.pressures {
+                            let packing = jobs.len() as u64;
+                            jobs.push(self.job(packing, block, (packing_friction, compression, pressure)));
+                        }
+                    }
+                }
+            }
+        }
+        jobs
+    }
+
+    fn packing(job: &SphereJob) -> (i64, u64) {
+        (job.packing, job.preparation.seed)
+    }
+
+    fn places(job: &SphereJob) -> Vec<(PathName, i64)> {
+        job.rows()
+    }
+
+    fn make(&self, job: &SphereJob) -> Vec<SphereRecord> {
+        rows(job)
+    }
+
+    fn violations(dataset: &Dataset<SphereRecord>) -> Vec<Violation> {
+        check::check(dataset).violations
     }
 }
 
@@ -239,30 +254,12 @@ impl SphereBlock {
         factors.into_iter().fold(u64::from(self.repeats), |count, factor| count.saturating_mul(factor as u64))
     }
 
-    fn check(&self, friction: f64) -> Result<(), String> {
-        let [least, most] = SPHERES;
-        if !(least..=most).contains(&self.spheres) {
-            return Err(format!("spheres: {}, allowed: {least} to {most}", self.spheres));
-        }
+    fn check(&self) -> Result<(), String> {
         if let Some(Err(problem)) = self.sizes.as_ref().map(Sizes::check) {
             return Err(format!("sizes: {problem}"));
         }
         if self.compressions.is_empty() || self.pressures.is_empty() || self.repeats == 0 {
             return Err("compressions, pressures and repeats: at least one of each is needed".into());
-        }
-        // A packing whose friction is lowered afterwards collapses.
-        if let Some(value) = self.packing_frictions.iter().find(|value| !(0.0..=friction).contains(*value)) {
-            return Err(format!(
-                "packing_frictions: {value}, allowed: 0 to the friction of the plan, {friction}"
-            ));
-        }
-        let [least, most] = SHAKING;
-        if self.shaking != 0.0 && !(least..=most).contains(&self.shaking) {
-            return Err(format!("shaking: {}, allowed: 0, or {least} to {most}", self.shaking));
-        }
-        let [least, most] = PACKED_PRESSURES;
-        if let Some(value) = self.pressures.iter().find(|value| !(least..=most).contains(*value)) {
-            return Err(format!("pressures: {value:e}, allowed: {least:e} to {most:e}"));
         }
         for (key, value, [least, most]) in [("strain", self.strain, STRAINS), ("step", self.step, STEPS)] {
             if !(least..=most).contains(&value) {
@@ -278,11 +275,11 @@ impl SphereBlock {
         }
         for (k, path) in self.paths.iter().enumerate() {
             if *path == PathName::Packed {
-                let allowed = PathName::ALL.map(PathName::as_str).join(", ");
-                return Err(format!("paths: {}: allowed: {allowed}", path.as_str()));
+                let allowed = PathName::ALL.map(|path| path.to_string()).join(", ");
+                return Err(format!("paths: {path}: allowed: {allowed}"));
             }
             if self.paths[..k].contains(path) {
-                return Err(format!("paths: {}: is named twice", path.as_str()));
+                return Err(format!("paths: {path}: is named twice"));
             }
         }
         Ok(())
@@ -314,15 +311,15 @@ mod tests {
     #[test]
     fn what_is_not_allowed_is_refused_by_file_key_value_and_range() {
         let cases = [
-            ("spheres = 100", "spheres = 10", "spheres: 10, allowed: 50 to 1000000"),
+            ("spheres = 100", "spheres = 10", "spheres = 10, allowed: 50 to 1000000"),
             (
                 "repeats = ",
                 "sizes = { uniform = [1.0, 5.0] }\nrepeats = ",
                 "sizes: diameters from 1 to 5, allowed: up to 1:4",
             ),
-            ("repeats = ", "shaking = 0.2\nrepeats = ", "shaking: 0.2, allowed: 0, or 0.002 to 0.1"),
-            ("[0.0, 0.3]", "[0.4]", "packing_frictions: 0.4, allowed: 0 to the friction of the plan, 0.3"),
-            ("[1e-6, 1e-4]", "[1e-9]", "pressures: 1e-9, allowed: 1e-8 to 1e-3"),
+            ("repeats = ", "shaking = 0.2\nrepeats = ", "shaking = 0.2, allowed: 0, or 0.002 to 0.1"),
+            ("[0.0, 0.3]", "[0.4]", "packing_friction = 0.4, allowed: 0 to the friction, 0.3"),
+            ("[1e-6, 1e-4]", "[1e-9]", "pressure = 0.000000001, allowed: 1e-8 to 0.001"),
             ("[1e-6, 1e-4]", "[]", "at least one of each is needed"),
             ("[\"thermal\"]", "[\"packed\"]", "paths: packed: allowed: isotropic, thermal"),
             ("[\"thermal\"]", "[\"thermal\", \"thermal\"]", "paths: thermal: is named twice"),
@@ -330,7 +327,7 @@ mod tests {
             ("[\"thermal\"]", "[\"thermal\"]\nstrain = 1.0", "strain: 1e0, allowed: 1e-4 to 5e-2"),
             ("[\"thermal\"]", "[\"thermal\"]\ncycles = 0", "cycles: 0, allowed: 1 to 1000"),
             ("[\"thermal\"]", "[\"circle\"]", "unknown variant `circle`"),
-            ("seed = 5", "seed = 5\nfriction = 3.0", "friction: 3, allowed: 0 to 2"),
+            ("seed = 5", "seed = 5\nfriction = 3.0", "friction = 3, allowed: 0 to 2"),
             ("seed = 5", "seed = 5\npoisson_ratio = 0.6", "poisson_ratio: 0.6, allowed: 0 to 0.5"),
             ("seed = 5", "seed = 5\nrestitution = 0.0", "restitution: 0, allowed: 0.001 to 1"),
             ("seed = 5", "seed = 5\nradius_min = 1.0", "unknown field `radius_min`"),

@@ -3,17 +3,16 @@
 use super::kind::{PathName, SphereCompression};
 use super::paths::{Increment, Planned};
 use super::plan::SphereJob;
-use crate::Outcome;
-use crate::database::cell::Value;
+use crate::Settled;
 use crate::database::record::FAILED;
-use crate::database::table::{Column, Row, row};
-use crate::spheres::{Averages, Rest, Strain, Tensor};
+use crate::database::table::row;
+use crate::spheres::{Averages, Strain, Tensor};
 
 #[rustfmt::skip]
 row! {
     /// One state of one packing of spheres. Lengths are in diameters, stresses over E*. Averages are absent when the state
     /// was not reached. Meaning and unit of each field are those of [`COLUMNS`].
-    SphereRecord:
+    SphereRecord, "spheres 2", ["shaking"], path: PathName;
     packing: i64, "INTEGER", "-", "index of the packing in the plan";
     spheres: u64, "INTEGER", "-", "spheres in the packing";
     seed: u64, "INTEGER", "-", "seed of the packing";
@@ -73,50 +72,28 @@ row! {
     gas_conductivity_8_5: Option<f64>, "REAL", "-", "conductivity by the gas over k of the gas, network solved, mean of xx, yy, zz, at the number ln(R/h) = 8.5 of the gas";
 }
 
-impl Row for SphereRecord {
-    const COLUMNS: &'static [Column] = COLUMNS;
-    const SCHEMA: &'static str = "spheres 2";
-    const LATER: &'static [&'static str] = &["shaking"];
-    type Place = (PathName, i64);
+/// Functions that set and give the six columns of a tensor.
+macro_rules! tensors {
+    ($($set:ident $get:ident: $($part:ident)*;)*) => {
+        impl SphereRecord {$(
+            fn $set(&mut self, tensor: Tensor) {
+                [$(self.$part),*] = tensor.map(Some);
+            }
 
-    fn from_cells<'a>(
-        cell: impl Fn(usize) -> Result<Value<'a>, String>,
-    ) -> Result<Self, (&'static str, String)> {
-        Self::of_cells(cell)
-    }
-
-    fn packing(&self) -> i64 {
-        self.packing
-    }
-
-    fn place(&self) -> (PathName, i64) {
-        (self.path, self.stop)
-    }
-
-    fn order(&self) -> impl Ord {
-        self.place()
-    }
-
-    fn name_of(packing: i64, (path, stop): &(PathName, i64)) -> String {
-        format!("packing {packing}, path {}, stop {stop}", path.as_str())
-    }
-
-    fn seed(&self) -> u64 {
-        self.seed
-    }
-
-    fn has_failed(&self) -> bool {
-        self.failure.is_some()
-    }
+            fn $get(&self) -> Option<Tensor> {
+                Some([$(self.$part?),*])
+            }
+        )*}
+    };
 }
 
-/// Sets the six columns of a tensor.
-macro_rules! set {
-    ($record:ident, $tensor:expr, $($name:ident)*) => {
-        let tensor: Tensor = $tensor;
-        let mut parts = tensor.into_iter();
-        $($record.$name = parts.next().map(Into::into).unwrap_or_default();)*
-    };
+tensors! {
+    set_step step: step_xx step_yy step_zz step_xy step_xz step_yz;
+    set_stress stress: stress_xx stress_yy stress_zz stress_xy stress_xz stress_yz;
+    set_fabric fabric: fabric_xx fabric_yy fabric_zz fabric_xy fabric_xz fabric_yz;
+    set_contact_conductivity contact_conductivity:
+        contact_conductivity_xx contact_conductivity_yy contact_conductivity_zz
+        contact_conductivity_xy contact_conductivity_xz contact_conductivity_yz;
 }
 
 impl SphereRecord {
@@ -137,7 +114,7 @@ impl SphereRecord {
     }
 
     /// The row of the packed state, or of the reason why it was not reached.
-    pub(super) fn packed(job: &SphereJob, state: Result<&(Rest, Averages), &str>) -> Self {
+    pub(super) fn packed(job: &SphereJob, state: Result<&(Settled, Averages), &str>) -> Self {
         let mut record = Self::of(job);
         record.set_state(state);
         record
@@ -148,23 +125,24 @@ impl SphereRecord {
         job: &SphereJob,
         path: PathName,
         planned: &Planned,
-        state: Result<&(Rest, Averages), &str>,
+        state: Result<&(Settled, Averages), &str>,
     ) -> Self {
         let Planned { stop, increment: Increment { from_stop, step, turned }, strain, .. } = *planned;
         let mut record = Self { path, stop, strain: strain.thermal, ..Self::of(job) };
-        set!(record, strain.stretch, strain_xx strain_yy strain_zz strain_xy strain_xz strain_yz);
+        let r = &mut record;
+        [r.strain_xx, r.strain_yy, r.strain_zz, r.strain_xy, r.strain_xz, r.strain_yz] = strain.stretch;
         record.from_stop = Some(from_stop);
         record.turned = Some(u64::from(turned));
         record.step_thermal = Some(step.thermal);
-        set!(record, step.stretch, step_xx step_yy step_zz step_xy step_xz step_yz);
+        record.set_step(step.stretch);
         record.set_state(state);
         record
     }
 
-    fn set_state(&mut self, state: Result<&(Rest, Averages), &str>) {
+    fn set_state(&mut self, state: Result<&(Settled, Averages), &str>) {
         match state {
             Ok((rest, averages)) => {
-                self.outcome = rest.outcome.as_str().to_string();
+                self.outcome = rest.outcome.to_string();
                 self.steps = rest.steps;
                 self.unbalanced = Some(rest.unbalanced);
                 self.set_averages(averages);
@@ -183,32 +161,16 @@ impl SphereRecord {
         self.rattlers = Some(a.rattlers);
         self.neighbours = Some(a.neighbours);
         self.pressure = Some(a.pressure());
-        set!(self, a.stress, stress_xx stress_yy stress_zz stress_xy stress_xz stress_yz);
-        set!(self, a.fabric, fabric_xx fabric_yy fabric_zz fabric_xy fabric_xz fabric_yz);
-        set!(
-            self,
-            a.contact_conductivity,
-            contact_conductivity_xx contact_conductivity_yy contact_conductivity_zz
-            contact_conductivity_xy contact_conductivity_xz contact_conductivity_yz
-        );
-        let [low, middle, high] = a.gas_conductivity.map(Some);
-        (self.gas_conductivity_3_5, self.gas_conductivity_6_0, self.gas_conductivity_8_5) =
-            (low, middle, high);
+        self.set_stress(a.stress);
+        self.set_fabric(a.fabric);
+        self.set_contact_conductivity(a.contact_conductivity);
+        [self.gas_conductivity_3_5, self.gas_conductivity_6_0, self.gas_conductivity_8_5] =
+            a.gas_conductivity.map(Some);
     }
 
     /// Of a path: the increment that leads to the state; none of the packed state.
     pub fn increment(&self) -> Option<Increment> {
-        let step = Strain {
-            thermal: self.step_thermal?,
-            stretch: [
-                self.step_xx?,
-                self.step_yy?,
-                self.step_zz?,
-                self.step_xy?,
-                self.step_xz?,
-                self.step_yz?,
-            ],
-        };
+        let step = Strain { thermal: self.step_thermal?, stretch: self.step()? };
         Some(Increment { from_stop: self.from_stop?, step, turned: self.turned? != 0 })
     }
 
@@ -227,40 +189,14 @@ impl SphereRecord {
             backbone_coordination: self.backbone_coordination?,
             rattlers: self.rattlers?,
             neighbours: self.neighbours?,
-            fabric: [
-                self.fabric_xx?,
-                self.fabric_yy?,
-                self.fabric_zz?,
-                self.fabric_xy?,
-                self.fabric_xz?,
-                self.fabric_yz?,
-            ],
-            stress: [
-                self.stress_xx?,
-                self.stress_yy?,
-                self.stress_zz?,
-                self.stress_xy?,
-                self.stress_xz?,
-                self.stress_yz?,
-            ],
-            contact_conductivity: [
-                self.contact_conductivity_xx?,
-                self.contact_conductivity_yy?,
-                self.contact_conductivity_zz?,
-                self.contact_conductivity_xy?,
-                self.contact_conductivity_xz?,
-                self.contact_conductivity_yz?,
-            ],
+            fabric: self.fabric()?,
+            stress: self.stress()?,
+            contact_conductivity: self.contact_conductivity()?,
             gas_conductivity: [
                 self.gas_conductivity_3_5?,
                 self.gas_conductivity_6_0?,
                 self.gas_conductivity_8_5?,
             ],
         })
-    }
-
-    /// Whether the state was reached and carries load.
-    pub fn carries_load(&self) -> bool {
-        self.outcome == Outcome::Settled.as_str() || self.outcome == Outcome::Capped.as_str()
     }
 }

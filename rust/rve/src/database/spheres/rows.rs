@@ -5,14 +5,15 @@ use super::kind::PathName;
 use super::paths::Planned;
 use super::plan::SphereJob;
 use super::record::SphereRecord;
-use crate::Outcome;
+use crate::Settled;
+use crate::database::path_rows::goes_on;
 use crate::spheres::turn::{turned, turned_strain};
-use crate::spheres::{Averages, Rest, Strain, advance, averages, prepare};
+use crate::spheres::{Averages, Strain, advance, averages, prepare};
 use crate::stopwatch::{self, Stage};
 use msdd_spheres::Simulation;
 
 /// A state that was reached.
-type State = (Rest, Averages);
+type State = (Settled, Averages);
 
 /// Makes a packing and takes it along its paths. A stop that was not reached has a row, too, with the reason.
 pub(super) fn rows(job: &SphereJob) -> Vec<SphereRecord> {
@@ -55,7 +56,7 @@ fn averaged(simulation: &Simulation) -> Result<Averages, String> {
 /// any more. Where the box yields along an axis, that part of the plan is filled in.
 fn follow(
     packed: &Simulation,
-    rest: Rest,
+    rest: Settled,
     path: PathName,
     planned: &mut [Planned],
 ) -> Vec<Result<State, String>> {
@@ -86,14 +87,6 @@ fn follow(
         here = next;
     }
     results
-}
-
-/// The box from which the path goes on; or why it ends here.
-fn goes_on(simulation: Simulation, rest: Rest, stop: i64) -> Result<Simulation, String> {
-    match rest.outcome {
-        Outcome::Unjammed => Err(format!("the path ended at stop {stop}, without load")),
-        Outcome::Settled | Outcome::Capped => Ok(simulation),
-    }
 }
 
 /// Applies one increment and lets the box come to rest.

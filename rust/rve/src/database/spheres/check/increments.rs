@@ -1,17 +1,15 @@
 //! Laws of the rows of paths: each follows from the row that its increment starts from.
 
-use crate::database::check::planned::{jobs, within};
+use crate::database::check::planned::{Found, jobs, named, within};
 use crate::database::spheres::kind::PathName;
 use crate::database::spheres::paths::{Increment, Planned};
 use crate::database::spheres::plan::{SphereJob, SpherePlan};
 use crate::database::spheres::record::SphereRecord;
-use crate::database::table::Row;
 use crate::database::{Dataset, Violation};
 use crate::spheres::Strain;
 use std::collections::BTreeMap;
 
 type Key = (i64, PathName, i64);
-type Found = Vec<(&'static str, String)>;
 
 /// All violated laws of the rows of paths, and of their columns in packed rows.
 pub(super) fn violations(dataset: &Dataset<SphereRecord>, tolerance: f64) -> Vec<Violation> {
@@ -25,8 +23,7 @@ pub(super) fn violations(dataset: &Dataset<SphereRecord>, tolerance: f64) -> Vec
             PathName::Packed => packed_laws(record),
             _ => row_laws(record, &rows, &planned, tolerance),
         };
-        let name = || record.name();
-        violations.extend(found.into_iter().map(|(law, found)| Violation { row: name(), law, found }));
+        violations.extend(named(record, found));
     }
     violations
 }

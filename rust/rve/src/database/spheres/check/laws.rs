@@ -1,29 +1,18 @@
 //! Exact laws (definitions, bounds) that every row must obey.
 
 use crate::database::Violation;
-use crate::database::check::planned::within;
-use crate::database::record::FAILED;
+use crate::database::check::planned::{Found, failed, found, named};
 use crate::database::spheres::record::SphereRecord;
-use crate::database::table::Row;
 use crate::spheres::{Averages, Tensor};
 
-type Found = Vec<(&'static str, String)>;
-
 pub(super) fn violations(records: &[SphereRecord], tolerance: f64) -> Vec<Violation> {
-    let of_row = |record: &SphereRecord| {
-        let found = row_laws(record, tolerance).into_iter();
-        let name = record.name();
-        found.map(move |(law, found)| Violation { row: name.clone(), law, found }).collect::<Vec<_>>()
-    };
-    records.iter().flat_map(of_row).collect()
+    records.iter().flat_map(|record| named(record, row_laws(record, tolerance))).collect()
 }
 
 fn row_laws(record: &SphereRecord, tolerance: f64) -> Found {
     let averages = record.averages();
-    if record.outcome == FAILED || record.failure.is_some() {
-        let sound = record.outcome == FAILED && record.failure.is_some() && averages.is_none();
-        let text = format!("outcome {}, failure {:?}", record.outcome, record.failure);
-        return if sound { Vec::new() } else { vec![("a failure has a reason and no averages", text)] };
+    if let Some(found) = failed(record, averages.is_some()) {
+        return found;
     }
     match (averages, record.pressure) {
         (Some(averages), Some(pressure)) => state_laws(record, &averages, pressure, tolerance),
@@ -39,7 +28,7 @@ fn state_laws(record: &SphereRecord, a: &Averages, pressure: f64, tolerance: f64
     let size: f64 = conductivity[..3].iter().map(|part| part.abs()).sum();
     // Without contacts the fabric tensor is zero.
     let off_trace = if trace == 0.0 { 0.0 } else { trace - 1.0 };
-    let off = [
+    let zeros = [
         ("p = (sigma_xx + sigma_yy + sigma_zz)/3", a.pressure() - pressure, stress),
         ("trace of F is 1", off_trace, 1.0),
     ];
@@ -56,11 +45,7 @@ fn state_laws(record: &SphereRecord, a: &Averages, pressure: f64, tolerance: f64
         ),
         ("more gas number, more conductivity", 0.0 < low && low < middle && middle < high, middle),
     ];
-    let off = off.into_iter().filter(|(_, off, scale)| !within(*off, 4.0 * tolerance * scale));
-    let holds = holds.into_iter().filter(|(_, holds, _)| !holds);
-    off.map(|(law, off, _)| (law, format!("off by {off:.3e}")))
-        .chain(holds.map(|(law, _, value)| (law, value.to_string())))
-        .collect()
+    found(&zeros, &holds, tolerance)
 }
 
 /// The least of the diagonal, times its largest part, and of the 2 × 2 minors about the diagonal: none is negative in a positive

@@ -1,7 +1,6 @@
 //! Isotropic packings have no direction: what tells one axis from another vanishes on average.
 
 use crate::database::check::Mean;
-use crate::database::check::statistics::{mean, variance};
 use crate::database::spheres::kind::{PathName, SphereCompression};
 use crate::database::spheres::record::SphereRecord;
 use crate::spheres::{Averages, Tensor};
@@ -45,11 +44,7 @@ pub(super) fn symmetry(records: &[SphereRecord]) -> Vec<Mean> {
         for (name, tensor) in QUANTITIES {
             for (part, of) in PARTS {
                 let values: Vec<f64> = states.iter().map(|state| of(tensor(state))).collect();
-                let packings = values.len();
-                let standard_error = (variance(&values) / packings as f64).sqrt();
-                let quantity = format!("{name}: {part}");
-                let grains = "spheres";
-                means.push(Mean { count, grains, quantity, packings, mean: mean(&values), standard_error });
+                means.push(Mean::of(count, "spheres", format!("{name}: {part}"), &values));
             }
         }
     }

@@ -1,6 +1,6 @@
 use super::*;
 use crate::database::spheres::kind::PathName;
-use crate::database::{Run, generate, read_spheres};
+use crate::database::{Recipe, Run, generate, read_spheres};
 use std::ops::ControlFlow;
 use std::sync::OnceLock;
 
@@ -66,7 +66,7 @@ fn every_broken_law_is_found_and_its_row_named() {
     for (law, path, stop, damage) in cases {
         let mut damaged = dataset();
         damage(of_path(&mut damaged, path, stop));
-        let name = format!("packing 1, path {}, stop {stop}", path.as_str());
+        let name = format!("packing 1, path {path}, stop {stop}");
         let violations = check(&damaged).violations;
         assert!(violations.iter().any(|v| v.law == law && v.row == name), "{law}: {violations:?}");
     }

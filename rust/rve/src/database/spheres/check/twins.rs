@@ -131,7 +131,7 @@ fn law(turned: bool) -> &'static str {
 fn pairs(records: &[SphereRecord]) -> Vec<Pair<'_>> {
     let rows: BTreeMap<(i64, PathName, i64), &SphereRecord> =
         records.iter().map(|r| ((r.packing, r.path, r.stop), r)).collect();
-    let settled = |r: &&SphereRecord| r.outcome == Outcome::Settled.as_str();
+    let settled = |r: &&SphereRecord| r.outcome == Outcome::Settled.to_string();
     let of = |first: &'_ SphereRecord| {
         let second = rows.get(&(first.packing, first.path, first.stop + 1)).copied().filter(settled)?;
         let packed = rows.get(&(first.packing, PathName::Packed, 0))?.averages()?;
