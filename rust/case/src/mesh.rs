@@ -17,6 +17,13 @@ pub struct Patch {
     pub count: usize,
 }
 
+impl Patch {
+    /// The numbers of its faces.
+    pub fn faces(&self) -> std::ops::Range<usize> {
+        self.first..self.first + self.count
+    }
+}
+
 /// Points, faces and cells of a mesh.
 #[derive(Clone, Debug)]
 pub struct Mesh {
@@ -45,18 +52,13 @@ impl Mesh {
     /// [`CaseError::Read`] for a file that is missing or binary, [`CaseError::Key`] for one that is no list of the right size.
     pub fn read(case: &Path, region: &str) -> Result<Self, CaseError> {
         let folder = case.join("constant").join(region).join("polyMesh");
-        let points: Vec<[f64; 3]> =
-            numbers(&folder.join("points"))?.chunks(3).map(|p| [p[0], p[1], p[2]]).collect();
+        let numbers: Vec<f64> = list(&folder.join("points"))?;
+        let points: Vec<[f64; 3]> = numbers.chunks(3).map(|p| [p[0], p[1], p[2]]).collect();
         let faces = lists(&folder.join("faces"))?;
-        let owner = labels(&folder.join("owner"))?;
-        let neighbour = labels(&folder.join("neighbour"))?;
+        let owner: Vec<usize> = list(&folder.join("owner"))?;
+        let neighbour: Vec<usize> = list(&folder.join("neighbour"))?;
         let patches = patches(&folder.join("boundary"))?;
-        let bad = |file: &str, value: String, allowed: String| CaseError::Key {
-            file: folder.join(file),
-            key: "list".to_string(),
-            value,
-            allowed,
-        };
+        let bad = |file: &str, value: String, allowed| refused_list(&folder.join(file), value, allowed);
         if owner.len() != faces.len() || neighbour.len() > faces.len() {
             let value = format!("{} owners, {} neighbours", owner.len(), neighbour.len());
             return Err(bad("owner", value, format!("one owner for each of {} faces", faces.len())));
@@ -64,8 +66,8 @@ impl Mesh {
         if let Some(point) = faces.iter().flatten().find(|&&point| point >= points.len()) {
             return Err(bad("faces", point.to_string(), format!("points below {}", points.len())));
         }
-        if let Some(patch) = patches.iter().find(|patch| patch.first + patch.count > faces.len()) {
-            let value = format!("{} to {} of {}", patch.first, patch.first + patch.count, patch.name);
+        if let Some(patch) = patches.iter().find(|patch| patch.faces().end > faces.len()) {
+            let value = format!("{} to {} of {}", patch.first, patch.faces().end, patch.name);
             return Err(bad("boundary", value, format!("faces up to {}", faces.len())));
         }
         let computed: Vec<Face> = faces.iter().map(|face| Face::new(face, &points)).collect();
@@ -154,15 +156,15 @@ fn centres(faces: &[Face], sides: &[(usize, usize)]) -> Vec<([f64; 3], f64)> {
     pyramids.into_iter().map(|(sum, volume)| (sum.map(|x| x / volume), volume)).collect()
 }
 
+const BINARY: &str = "binary; allowed: ascii. Set 'writeFormat ascii' in system/controlDict and run 'foamFormatConvert -constant'";
+
 /// The list of a file, as the text between its outermost parentheses.
 fn content(file: &Path) -> Result<String, CaseError> {
     let failed = |problem: &str| CaseError::Read { file: file.to_path_buf(), problem: problem.to_string() };
     let bytes =
         binary::read(file).ok_or_else(|| failed("there is no such file (blockMesh makes the mesh)"))?;
     if binary::is_binary(&bytes) {
-        return Err(failed(
-            "binary; allowed: ascii. Set 'writeFormat ascii' in system/controlDict and run 'foamFormatConvert -constant'",
-        ));
+        return Err(failed(BINARY));
     }
     let text = String::from_utf8(bytes).map_err(|_| failed("no text"))?;
     // The head of the file ends with the first closing brace.
@@ -189,25 +191,19 @@ fn patches(file: &Path) -> Result<Vec<Patch>, CaseError> {
     all.keys().map(patch).collect()
 }
 
+fn refused_list(file: &Path, value: String, allowed: String) -> CaseError {
+    CaseError::Key { file: file.to_path_buf(), key: "list".to_string(), value, allowed }
+}
+
 fn parsed<T: std::str::FromStr>(file: &Path, text: &str) -> Result<Vec<T>, CaseError> {
     let words =
         text.split(|c: char| c.is_whitespace() || c == '(' || c == ')').filter(|word| !word.is_empty());
-    let parse = |word: &str| {
-        word.parse().map_err(|_| CaseError::Key {
-            file: file.to_path_buf(),
-            key: "list".to_string(),
-            value: word.to_string(),
-            allowed: "numbers".to_string(),
-        })
-    };
+    let wrong = |word: &str| refused_list(file, word.to_string(), "numbers".to_string());
+    let parse = |word: &str| word.parse().map_err(|_| wrong(word));
     words.map(parse).collect()
 }
 
-fn numbers(file: &Path) -> Result<Vec<f64>, CaseError> {
-    parsed(file, &content(file)?)
-}
-
-fn labels(file: &Path) -> Result<Vec<usize>, CaseError> {
+fn list<T: std::str::FromStr>(file: &Path) -> Result<Vec<T>, CaseError> {
     parsed(file, &content(file)?)
 }
 

@@ -73,6 +73,8 @@ fn name(file: &Path) -> String {
     file.file_name().unwrap_or_default().to_string_lossy().into_owned()
 }
 
+const KINDS: &str = "allowed: a field of scalars, vectors, symmetric tensors or tensors in cells";
+
 impl Field {
     /// Reads a field, in text or binary, also a packed one. None if there is no such file, or if the file of a start
     /// takes its values from elsewhere (`#include`, `$name`). `cells`: number of cells of the mesh.
@@ -97,11 +99,7 @@ impl Field {
             kind if kind.starts_with("volVector") => 3,
             kind if kind.starts_with("volSymmTensor") => 6,
             kind if kind.starts_with("volTensor") => 9,
-            _ => {
-                return Err(failed(
-                    "allowed: a field of scalars, vectors, symmetric tensors or tensors in cells",
-                ));
-            }
+            _ => return Err(failed(KINDS)),
         };
         let Some((_, rest)) = text.split_once("internalField") else {
             return if text.contains('#') { Ok(None) } else { Err(failed("there is no internalField")) };

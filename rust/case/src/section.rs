@@ -1,12 +1,11 @@
 //! A mesh in a plane, for pictures: its cells as polygons. Meshes of one layer of cells are drawn as they are, wedges mirrored to the
 //! whole section, and meshes in space are cut in the middle.
 
-use crate::mesh::{Mesh, cross, dot, minus};
+use crate::mesh::{Mesh, Patch, cross, dot, minus};
+use crate::numbers::{plain, rounded};
+use crate::walls::is_constraint;
 use std::collections::HashMap;
 
-/// Patches that are not walls.
-const CONSTRAINTS: [&str; 8] =
-    ["empty", "wedge", "symmetryPlane", "symmetry", "cyclic", "cyclicAMI", "processor", "cyclicACMI"];
 /// Cuts have at least this share of the cells of the one with the most.
 const MIN_CUT: f64 = 0.25;
 /// Holes of a wedge below this share of its radius are closed.
@@ -92,9 +91,7 @@ impl View {
         match self {
             Self::Layer { .. } => String::new(),
             Self::Wedge { .. } => "section through the axis".to_string(),
-            Self::Cut { out, at, .. } => {
-                format!("{} = {} m", AXES[*out], crate::numbers::plain(crate::numbers::rounded(*at, 4)))
-            }
+            Self::Cut { out, at, .. } => format!("{} = {} m", AXES[*out], plain(rounded(*at, 4))),
         }
     }
 }
@@ -122,10 +119,8 @@ impl Section {
             match view {
                 View::Layer { out, .. } => {
                     for face in faces_of(mesh, "empty").filter(|&face| along(mesh.areas[face], *out)) {
-                        section.add(
-                            mesh.faces[face].iter().map(|&p| view.at(mesh.points[p])),
-                            (number, mesh.owner[face]),
-                        );
+                        let corners = mesh.faces[face].iter().map(|&p| view.at(mesh.points[p]));
+                        section.add(corners, (number, mesh.owner[face]));
                     }
                 }
                 View::Wedge { .. } => {
@@ -135,7 +130,7 @@ impl Section {
                     let Some(patch) = mesh.patches.iter().find(|patch| patch.kind == "wedge") else {
                         continue;
                     };
-                    for face in patch.first..patch.first + patch.count {
+                    for face in patch.faces() {
                         let corners = || mesh.faces[face].iter().map(|&p| closed(view.at(mesh.points[p])));
                         let cell = (number, mesh.owner[face]);
                         section.add(corners(), cell);
@@ -179,14 +174,11 @@ impl Section {
 
 /// Whether a patch can be a wall.
 pub fn is_wall(kind: &str) -> bool {
-    !CONSTRAINTS.contains(&kind)
+    !is_constraint(kind)
 }
 
 fn faces_of<'a>(mesh: &'a Mesh, kind: &'a str) -> impl Iterator<Item = usize> + 'a {
-    mesh.patches
-        .iter()
-        .filter(move |patch| patch.kind == kind)
-        .flat_map(|patch| patch.first..patch.first + patch.count)
+    mesh.patches.iter().filter(move |patch| patch.kind == kind).flat_map(Patch::faces)
 }
 
 /// Whether a face looks along an axis, in its sense.
@@ -196,15 +188,9 @@ fn along(area: [f64; 3], axis: usize) -> bool {
 
 /// Axis and angle of a mesh that is a wedge.
 fn wedge(mesh: &Mesh) -> Option<([f64; 3], f64)> {
-    let normals: Vec<[f64; 3]> = mesh
-        .patches
-        .iter()
-        .filter(|patch| patch.kind == "wedge" && patch.count > 0)
-        .map(|patch| {
-            (patch.first..patch.first + patch.count)
-                .fold([0.0; 3], |sum, face| std::array::from_fn(|k| sum[k] + mesh.areas[face][k]))
-        })
-        .collect();
+    let flat = mesh.patches.iter().filter(|patch| patch.kind == "wedge" && patch.count > 0);
+    let add = |sum: [f64; 3], face: usize| std::array::from_fn(|k| sum[k] + mesh.areas[face][k]);
+    let normals: Vec<[f64; 3]> = flat.map(|patch| patch.faces().fold([0.0; 3], add)).collect();
     let [first, second, ..] = normals[..] else { return None };
     let axis = cross(first, second);
     let size = dot(axis, axis).sqrt();
@@ -245,7 +231,6 @@ fn cut(mesh: &Mesh, faces: &[usize], heights: &[f64]) -> Vec<[f64; 3]> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mesh::Patch;
     use std::path::Path;
 
     /// A box of 2 x 1 x `layers` cells of 1 m, whose sides are of one patch but those across z.

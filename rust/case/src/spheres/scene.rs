@@ -281,15 +281,11 @@ impl SphereCase {
         ranges::gas_pressure(self.gas.pressure)?;
         for temperature in self.temperatures() {
             let Some(between) = gas.at(temperature, self.gas.pressure, 1.0) else { continue };
-            let (solid, least) =
-                (self.spheres.conductivity.at(temperature), MIN_RATIO * between.conductivity);
+            let solid = self.spheres.conductivity.at(temperature);
+            let least = MIN_RATIO * between.conductivity;
             allow("thermalConductivity", solid, solid >= least, || {
-                format!(
-                    "at least the conductivity of the gas ({}), {} W/(m K) at {} K",
-                    gas,
-                    number(rounded(least, 3)),
-                    number(temperature)
-                )
+                let (least, at) = (number(rounded(least, 3)), number(temperature));
+                format!("at least the conductivity of the gas ({gas}), {least} W/(m K) at {at} K")
             })?;
         }
         self.heat_source.map_or(Ok(()), ranges::heat_source)
@@ -319,13 +315,8 @@ impl SphereCase {
         if self.gas.name == GasName::Vacuum {
             return refuse("gas", "vacuum", "with a flow: air, nitrogen, helium, argon");
         }
-        let warm = self
-            .shape
-            .walls()
-            .iter()
-            .zip(self.warm())
-            .find(|(name, warm)| *warm && flow.ends().contains(name));
-        match warm {
+        let mut walls = self.shape.walls().iter().zip(self.warm());
+        match walls.find(|(name, warm)| *warm && flow.ends().contains(name)) {
             Some((name, _)) => refuse(name, "not insulated", "insulated: the gas flows through this wall"),
             None => Ok(()),
         }

@@ -53,11 +53,9 @@ impl Geometry {
         };
         let heated = |name: &str| scene.heated.iter().any(|heated| heated.wall == name);
         if let Some(side) = ["x_low", "x_high", "y_low", "y_high"].into_iter().find(|name| heated(name)) {
-            return Err(wrong(
-                "heated.wall",
-                side.to_string(),
-                "floor, lid, and the side of a cylinder, where the solver's case is a column of cells",
-            ));
+            let allowed =
+                "floor, lid, and the side of a cylinder, where the solver's case is a column of cells";
+            return Err(wrong("heated.wall", side.to_string(), allowed));
         }
         let diameter = scene.grains.diameter;
         let half = diameter * if scene.resists("side") { INSULATED } else { HELD };

@@ -1,6 +1,6 @@
 //! `msdd bed run` of a folder with `bed.toml`: a bed whose walls move while heat flows.
 
-use super::RunArguments;
+use super::arguments::RunArguments;
 use crate::confirm;
 use crate::error::CliError;
 use crate::progress::Progress;

@@ -2,7 +2,6 @@
 
 use super::disc_options::GrainWishes;
 use super::prompts::{Prompter, number, temperature, wrong};
-use super::sphere_options::ask_walls;
 use crate::error::CliError;
 use crate::named::{choice, parser};
 use clap::Args;
@@ -26,9 +25,9 @@ const POROSITY: f64 = 0.125;
 /// End of a run that ends once it is steady, over the proposed end of others.
 const LATER: f64 = 10.0;
 /// Proposed difference between the hot wall's temperature and the initial one [K]; the paper's grains strain by 5 % then.
-pub(super) const HOTTER: f64 = 50.0;
+const HOTTER: f64 = 50.0;
 
-pub(super) const WALL_HELP: &str = "Each wall is insulated, or has a temperature [K], or one that changes over time: 0:300,60:350 is \
+const WALL_HELP: &str = "Each wall is insulated, or has a temperature [K], or one that changes over time: 0:300,60:350 is \
                                     300 K at 0 s, 350 K at 60 s, and linear between them. h=200,T=300 is a heat transfer \
                                     coefficient [W/(m2 K)] to the outside, q=500 a heat flux [W/m2] into the bed.";
 
@@ -294,6 +293,28 @@ impl CommonOptions {
         let read = prompter.within(number, |&value| ranges::heat_source(value));
         prompter.value(self.heat_source, help, "Heat released inside [W/m3]", "0", read).map(Some)
     }
+}
+
+/// Where options gave any wall or gas flows, the others are insulated unless answered otherwise; else the first one is hot, and the second one of
+/// a box has the temperature of the start.
+pub(super) fn ask_walls(
+    prompter: &Prompter,
+    names: &[&str],
+    given: Vec<Option<WallOverTime>>,
+    initial: f64,
+    [flows, is_box]: [bool; 2],
+    read: impl Fn(&str) -> Result<WallOverTime, String>,
+) -> Result<Vec<WallOverTime>, CliError> {
+    let any = flows || given.iter().any(Option::is_some);
+    let walls = names.iter().zip(given).enumerate().map(|(k, (name, given))| {
+        let proposal = match k {
+            0 if !any => plain(initial + HOTTER),
+            1 if !any && is_box => plain(initial),
+            _ => "insulated".to_string(),
+        };
+        prompter.value(given, WALL_HELP, &format!("Wall '{name}'"), &proposal, &read)
+    });
+    walls.collect()
 }
 
 /// The temperature of the coldest wall [K], if options gave walls of different temperatures: the bed then starts at it. A

@@ -1,6 +1,6 @@
 //! The user's choices for a new case of a bed of spheres: options in addition to those of all beds, and questions.
 
-use super::common_options::{CommonOptions, HOTTER, WALL_HELP, coldest};
+use super::common_options::{CommonOptions, ask_walls, coldest};
 use super::prompts::{Prompter, number, temperature, wrong};
 use crate::error::CliError;
 use crate::named::{choice, parser};
@@ -404,28 +404,6 @@ impl SphereOptions {
         let gravity = prompter.value(self.gravity, help, "Gravity [m/s2]", &plain(GRAVITY), read)?;
         Ok((lid, wall_friction, gravity))
     }
-}
-
-/// Where options gave any wall or gas flows, the others are insulated unless answered otherwise; else the first one is hot, and the second one of
-/// a box has the temperature of the start.
-pub(super) fn ask_walls(
-    prompter: &Prompter,
-    names: &[&str],
-    given: Vec<Option<WallOverTime>>,
-    initial: f64,
-    [flows, is_box]: [bool; 2],
-    read: impl Fn(&str) -> Result<WallOverTime, String>,
-) -> Result<Vec<WallOverTime>, CliError> {
-    let any = flows || given.iter().any(Option::is_some);
-    let walls = names.iter().zip(given).enumerate().map(|(k, (name, given))| {
-        let proposal = match k {
-            0 if !any => plain(initial + HOTTER),
-            1 if !any && is_box => plain(initial),
-            _ => "insulated".to_string(),
-        };
-        prompter.value(given, WALL_HELP, &format!("Wall '{name}'"), &proposal, &read)
-    });
-    walls.collect()
 }
 
 /// Porosity and pressure on the top \[Pa\]. The pressure comes first, because the range of the porosity depends on it.

@@ -66,15 +66,11 @@ pub fn read(run: &Run, time: usize) -> Result<Vec<Along>, CliError> {
     let mut walls = Vec::new();
     for patch in mesh.patches.iter().filter(|patch| is_wall(&patch.kind) && patch.count > 0) {
         let own = t.as_ref().and_then(|t| t.patches.get(&patch.name));
-        let places: Vec<Vec<f64>> = (patch.first..patch.first + patch.count)
-            .map(|face| {
-                let centre = mesh.face_centres[face];
-                match run.views.len() {
-                    1 => run.views[0].at(centre).to_vec(),
-                    _ => centre.to_vec(),
-                }
-            })
-            .collect();
+        let place = |centre: Vector| match run.views.len() {
+            1 => run.views[0].at(centre).to_vec(),
+            _ => centre.to_vec(),
+        };
+        let places: Vec<Vec<f64>> = patch.faces().map(|face| place(mesh.face_centres[face])).collect();
         let long = |axis: usize| {
             let (low, high) = range_of(places.iter().map(|place| &place[axis]));
             high - low
