@@ -29,7 +29,7 @@ pub enum PlateKind {
     Resisting,
 }
 
-crate::named!(PlateKind);
+named!(PlateKind);
 
 impl PlateKind {
     pub const ALL: [Self; 2] = [Self::Held, Self::Resisting];

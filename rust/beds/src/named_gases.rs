@@ -39,7 +39,7 @@ pub enum GasName {
     Vacuum,
 }
 
-crate::named!(GasName);
+named!(GasName);
 
 impl GasName {
     pub const ALL: [Self; 5] = [Self::Air, Self::Nitrogen, Self::Helium, Self::Argon, Self::Vacuum];

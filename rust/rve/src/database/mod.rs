@@ -7,6 +7,7 @@
 //! | `block` | the blocks of a plan |
 //! | `table` | columns and schema: what stands in a row |
 //! | `recipe` | what a plan of any grains has to know |
+//! | `discs` | that, for plans of discs |
 //! | [`spheres`] | plan, rows and checks of spheres |
 //! | `grains` | whether a file holds discs or spheres |
 //! | `seed` | seeds of packings |
@@ -27,6 +28,7 @@
 mod block;
 pub mod check;
 pub mod csv_file;
+mod discs;
 pub mod export;
 pub mod generate;
 mod grains;

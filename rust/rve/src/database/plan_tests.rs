@@ -1,5 +1,6 @@
 use super::*;
 use crate::Boundary;
+use crate::database::recipe::Recipe;
 
 const GOOD: &str = "radius_min = 3e-3\nradius_max = 7e-3\nseed = 1\n\
     [[thermal]]\ndiscs = 100\nporosities = [0.1, 0.15]\ncompressions = [\"isotropic\", \"intermediate\"]\n\

@@ -7,9 +7,6 @@ use super::table::{Place, Row};
 use super::{DatabaseError, Dataset, Violation};
 use serde::de::DeserializeOwned;
 
-/// A plan with more packings is taken as a typing error: it would compute for months.
-const MAX_PACKINGS: u64 = 1_000_000;
-
 /// A plan of packings.
 pub trait Recipe: DeserializeOwned + Sync {
     type Row: Row;
@@ -67,15 +64,6 @@ pub trait Recipe: DeserializeOwned + Sync {
     /// SHA-256 of the plan's text, hexadecimal.
     fn hash(&self) -> String {
         sha256(self.text().as_bytes())
-    }
-}
-
-/// Refuses too many packings of blocks.
-pub(super) fn check_count(packings: impl Iterator<Item = u64>) -> Result<(), String> {
-    let packings = packings.fold(0, u64::saturating_add);
-    match packings > MAX_PACKINGS {
-        true => Err(format!("{packings} packings, allowed: {MAX_PACKINGS}")),
-        false => Ok(()),
     }
 }
 

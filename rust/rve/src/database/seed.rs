@@ -1,6 +1,18 @@
-//! Seeds of packings and of their paths.
+//! How many packings a plan may have, and seeds of packings and of their paths.
 
 use sha2::{Digest, Sha256};
+
+/// A plan with more packings is taken as a typing error: it would compute for months.
+const MAX_PACKINGS: u64 = 1_000_000;
+
+/// Refuses too many packings of blocks.
+pub(super) fn check_count(packings: impl Iterator<Item = u64>) -> Result<(), String> {
+    let packings = packings.fold(0, u64::saturating_add);
+    match packings > MAX_PACKINGS {
+        true => Err(format!("{packings} packings, allowed: {MAX_PACKINGS}")),
+        false => Ok(()),
+    }
+}
 
 /// Seed of one packing. It depends on the plan's seed and the index only, not on order or threads. It has 53 bits, so
 /// that CSV readers which hold numbers as f64 keep it exactly.

@@ -6,6 +6,7 @@
 //! | [`paths`] | the increments of each path |
 //! | [`plan`] | the packings and paths to make |
 //! | [`record`] | one row: one state of one packing |
+//! | `recipe` | what is common to all plans |
 //! | `rows` | the rows of one packing |
 //! | `free_axis` | boxes that keep their stress along one axis |
 //! | [`check`] | exact laws on every row |
@@ -15,6 +16,7 @@ mod free_axis;
 pub mod kind;
 pub mod paths;
 pub mod plan;
+mod recipe;
 pub mod record;
 mod rows;
 

@@ -1,13 +1,7 @@
 //! A plan of packings of spheres and of the paths that they follow: a TOML file with blocks `[[spheres]]`.
 
-use super::check;
 use super::kind::{PathName, SphereCompression};
 use super::paths::{Planned, Steps, planned};
-use super::record::SphereRecord;
-use super::rows::rows;
-use crate::database::recipe::{Recipe, check_count};
-use crate::database::seed::packing_seed;
-use crate::database::{Dataset, Violation};
 use crate::spheres::Preparation;
 use msdd_beds::sizes::Sizes;
 use serde::{Deserialize, Serialize};
@@ -15,8 +9,8 @@ use serde::{Deserialize, Serialize};
 /// Sizes that increments and whole paths may have \[-\].
 const STEPS: [f64; 2] = [1e-5, 1e-2];
 const STRAINS: [f64; 2] = [1e-4, 5e-2];
-const POISSON_RATIOS: [f64; 2] = [0.0, 0.5];
-const RESTITUTIONS: [f64; 2] = [0.001, 1.0];
+pub(super) const POISSON_RATIOS: [f64; 2] = [0.0, 0.5];
+pub(super) const RESTITUTIONS: [f64; 2] = [0.001, 1.0];
 /// Times that a path may go there and back.
 const CYCLES: [u32; 2] = [1, 1000];
 /// A plan: blocks of packings, each of which follows paths.
@@ -137,124 +131,19 @@ impl SpherePlan {
     pub fn has_sphere_schema(text: &str) -> bool {
         text.parse::<toml::Table>().is_ok_and(|table| table.contains_key("spheres"))
     }
-
-    fn job(
-        &self,
-        packing: u64,
-        block: &SphereBlock,
-        (packing_friction, compression, pressure): (f64, SphereCompression, f64),
-    ) -> SphereJob {
-        let seed = packing_seed(self.seed, packing);
-        SphereJob {
-            packing: packing as i64,
-            compression,
-            preparation: Preparation {
-                spheres: block.spheres,
-                seed,
-                sizes: block.sizes.clone(),
-                poisson_ratio: self.poisson_ratio,
-                restitution: self.restitution,
-                packing_friction,
-                friction: self.friction,
-                rates: compression.rates(),
-                shaking: block.shaking,
-                pressure,
-            },
-            paths: block.paths.clone(),
-            steps: Steps { seed, pressure, strain: block.strain, size: block.step, cycles: block.cycles },
-        }
-    }
-}
-
-impl Recipe for SpherePlan {
-    type Row = SphereRecord;
-    type Job = SphereJob;
-    const ENGINE_VERSION: i64 = 1;
-
-    fn check(&self) -> Result<(), String> {
-        for (key, value, [least, most]) in [
-            ("poisson_ratio", self.poisson_ratio, POISSON_RATIOS),
-            ("restitution", self.restitution, RESTITUTIONS),
-        ] {
-            if !(least..=most).contains(&value) {
-                return Err(format!("{key}: {value}, allowed: {least} to {most}"));
-            }
-        }
-        if self.spheres.is_empty() {
-            return Err("at least one block of packings is needed".to_string());
-        }
-        for (block, number) in self.spheres.iter().zip(1..) {
-            block.check().map_err(|problem| format!("[[spheres]] {number}: {problem}"))?;
-        }
-        check_count(self.spheres.iter().map(|block| block.count(self.friction)))?;
-        self.jobs().iter().try_for_each(|job| job.preparation.check().map_err(|error| error.to_string()))
-    }
-
-    fn with_text(mut self, text: String) -> Self {
-        self.text = text;
-        self
-    }
-
-    fn text(&self) -> &str {
-        &self.text
-    }
-
-    fn grains(&self) -> Vec<(&'static str, String)> {
-        let material = serde_json::json!({
-            "friction": self.friction,
-            "poisson_ratio": self.poisson_ratio,
-            "restitution": self.restitution,
-        });
-        vec![("grains", "spheres".to_string()), ("material", material.to_string())]
-    }
-
-    /// The packings, in order of block, repeat, friction, compression, pressure: so that any first part of a block has all
-    /// kinds.
-    fn jobs(&self) -> Vec<SphereJob> {
-        let mut jobs = Vec::new();
-        for block in &self.spheres {
-            for _ in 0..block.repeats {
-                for &packing_friction in &block.frictions(self.friction) {
-                    for &compression in &block.compressions {
-                        for &pressure in &block.pressures {
-                            let packing = jobs.len() as u64;
-                            jobs.push(self.job(packing, block, (packing_friction, compression, pressure)));
-                        }
-                    }
-                }
-            }
-        }
-        jobs
-    }
-
-    fn packing(job: &SphereJob) -> (i64, u64) {
-        (job.packing, job.preparation.seed)
-    }
-
-    fn places(job: &SphereJob) -> Vec<(PathName, i64)> {
-        job.rows()
-    }
-
-    fn make(&self, job: &SphereJob) -> Vec<SphereRecord> {
-        rows(job)
-    }
-
-    fn violations(dataset: &Dataset<SphereRecord>) -> Vec<Violation> {
-        check::check(dataset).violations
-    }
 }
 
 impl SphereBlock {
-    fn frictions(&self, friction: f64) -> Vec<f64> {
+    pub(super) fn frictions(&self, friction: f64) -> Vec<f64> {
         if self.packing_frictions.is_empty() { vec![friction] } else { self.packing_frictions.clone() }
     }
 
-    fn count(&self, friction: f64) -> u64 {
+    pub(super) fn count(&self, friction: f64) -> u64 {
         let factors = [self.frictions(friction).len(), self.compressions.len(), self.pressures.len()];
         factors.into_iter().fold(u64::from(self.repeats), |count, factor| count.saturating_mul(factor as u64))
     }
 
-    fn check(&self) -> Result<(), String> {
+    pub(super) fn check(&self) -> Result<(), String> {
         if let Some(Err(problem)) = self.sizes.as_ref().map(Sizes::check) {
             return Err(format!("sizes: {problem}"));
         }
@@ -289,6 +178,7 @@ impl SphereBlock {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::database::recipe::Recipe;
 
     const PLAN: &str = "seed = 5\n[[spheres]]\nspheres = 100\npacking_frictions = [0.0, 0.3]\n\
         compressions = [\"isotropic\", \"sheared\"]\npressures = [1e-6, 1e-4]\nrepeats = 2\npaths = [\"thermal\"]\n";
