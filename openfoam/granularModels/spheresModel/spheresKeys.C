@@ -96,7 +96,7 @@ const keyTable granularModels::spheres::keys
             "friction",
             "coefficient of friction between the spheres: the shipped law is"
             " trained at 0.3 and [was compared](../quality/spheres.md#other-frictions)"
-            " within this range", "-", "0.2 to 0.5", "0.3"
+            " within this range", "-", "0.1 to 0.5", "0.3"
         },
         {
             "coordination",

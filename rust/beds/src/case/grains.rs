@@ -38,7 +38,7 @@ pub struct Grains {
     /// of `young_modulus`.
     #[serde(default = "absent")]
     pub simulated_young_modulus: f64,
-    /// Coefficient of friction of two grains. Allowed: `FRICTIONS`; by the solver 0.2 to 0.5. Default: 0.3.
+    /// Coefficient of friction of two grains. Allowed: `FRICTIONS`; by the solver 0.1 to 0.5. Default: 0.3.
     #[serde(default = "usual_friction")]
     pub friction: f64,
     /// Coefficient of friction of a grain and a wall. Allowed: `FRICTIONS`. Default: 0.3.

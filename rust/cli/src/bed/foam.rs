@@ -19,7 +19,7 @@ use std::path::{Path, PathBuf};
 /// Share of the largest change of temperature that a time step may be wrong by.
 const TOLERANCE: f64 = 2e-3;
 /// Frictions of the spheres that the law, trained with [`FRICTION`], was compared with; the key `friction` of the solver has it, too.
-const FRICTIONS: [f64; 2] = [0.2, 0.5];
+const FRICTIONS: [f64; 2] = [0.1, 0.5];
 /// Of a wall whose surface has one temperature [W/(m K)].
 const ANY_CONDUCTIVITY: f64 = 1e12;
 /// Slack of the spheres at a plate: about the mean of the poured beds, see `msdd bed slack`.

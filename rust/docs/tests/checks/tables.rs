@@ -68,7 +68,7 @@ fn the_page_of_the_package_has_every_public_name_once() {
         ("commands", "| – | required |"),
         (
             "beds",
-            "| `friction` | Coefficient of friction of two grains | – | 0 to 10; by the solver 0.2 to 0.5 | 0.3 |",
+            "| `friction` | Coefficient of friction of two grains | – | 0 to 10; by the solver 0.1 to 0.5 | 0.3 |",
         ),
         ("database", "| `wall_slip` | m | way of bottom and top along x since the packed state |"),
         ("scenes", "| `end` | End of the run | s | 1e-9 to 1e12 | required |"),
