@@ -18,7 +18,7 @@ impl Property {
     /// Value and what is allowed of the first thing that is wrong: values lie in `values`, temperatures rise and cover `wanted` \[K\].
     ///
     /// # Errors
-    /// As said.
+    /// That value, and what is allowed.
     pub fn check(&self, wanted: [f64; 2], values: [f64; 2]) -> Result<(), (String, String)> {
         let wrong = |value: String, allowed: &str| Err((value, allowed.to_string()));
         let fits = |value: f64| (values[0]..=values[1]).contains(&value);

@@ -15,7 +15,7 @@ impl Schedule {
     /// Value and what is allowed of the first entry that is wrong: times rise, values lie in `values`.
     ///
     /// # Errors
-    /// As said.
+    /// That value, and what is allowed.
     pub fn check(&self, values: [f64; 2]) -> Result<(), (String, String)> {
         let inside = |value: f64| (values[0]..=values[1]).contains(&value);
         let allowed = || range(values);

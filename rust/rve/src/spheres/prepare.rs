@@ -76,7 +76,7 @@ pub enum PrepareError {
 
 impl Preparation {
     /// The error names key, value and allowed range.
-    pub(crate) fn check(&self) -> Result<(), PrepareError> {
+    fn check(&self) -> Result<(), PrepareError> {
         let shaking = if self.shaking == 0.0 { SHAKING[0] } else { self.shaking };
         let parameters = [
             ("spheres", self.spheres as f64, SPHERES.map(|count| count as f64)),

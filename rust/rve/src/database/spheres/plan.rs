@@ -3,6 +3,7 @@
 use super::kind::{PathName, SphereCompression};
 use super::paths::{Planned, Steps, planned};
 use crate::spheres::Preparation;
+use crate::spheres::prepare::{PACKED_PRESSURES, SHAKING, SPHERES};
 use msdd_beds::sizes::Sizes;
 use serde::{Deserialize, Serialize};
 
@@ -143,12 +144,30 @@ impl SphereBlock {
         factors.into_iter().fold(u64::from(self.repeats), |count, factor| count.saturating_mul(factor as u64))
     }
 
-    pub(super) fn check(&self) -> Result<(), String> {
+    pub(super) fn check(&self, friction: f64) -> Result<(), String> {
+        let [least, most] = SPHERES;
+        if !(least..=most).contains(&self.spheres) {
+            return Err(format!("spheres: {}, allowed: {least} to {most}", self.spheres));
+        }
         if let Some(Err(problem)) = self.sizes.as_ref().map(Sizes::check) {
             return Err(format!("sizes: {problem}"));
         }
         if self.compressions.is_empty() || self.pressures.is_empty() || self.repeats == 0 {
             return Err("compressions, pressures and repeats: at least one of each is needed".into());
+        }
+        // A packing whose friction is lowered afterwards collapses.
+        if let Some(value) = self.packing_frictions.iter().find(|value| !(0.0..=friction).contains(*value)) {
+            return Err(format!(
+                "packing_frictions: {value}, allowed: 0 to the friction of the plan, {friction}"
+            ));
+        }
+        let [least, most] = SHAKING;
+        if self.shaking != 0.0 && !(least..=most).contains(&self.shaking) {
+            return Err(format!("shaking: {}, allowed: 0, or {least} to {most}", self.shaking));
+        }
+        let [least, most] = PACKED_PRESSURES;
+        if let Some(value) = self.pressures.iter().find(|value| !(least..=most).contains(*value)) {
+            return Err(format!("pressures: {value:e}, allowed: {least:e} to {most:e}"));
         }
         for (key, value, [least, most]) in [("strain", self.strain, STRAINS), ("step", self.step, STEPS)] {
             if !(least..=most).contains(&value) {
@@ -201,15 +220,15 @@ mod tests {
     #[test]
     fn what_is_not_allowed_is_refused_by_file_key_value_and_range() {
         let cases = [
-            ("spheres = 100", "spheres = 10", "spheres = 10, allowed: 50 to 1000000"),
+            ("spheres = 100", "spheres = 10", "spheres: 10, allowed: 50 to 1000000"),
             (
                 "repeats = ",
                 "sizes = { uniform = [1.0, 5.0] }\nrepeats = ",
                 "sizes: diameters from 1 to 5, allowed: up to 1:4",
             ),
-            ("repeats = ", "shaking = 0.2\nrepeats = ", "shaking = 0.2, allowed: 0, or 0.002 to 0.1"),
-            ("[0.0, 0.3]", "[0.4]", "packing_friction = 0.4, allowed: 0 to the friction, 0.3"),
-            ("[1e-6, 1e-4]", "[1e-9]", "pressure = 0.000000001, allowed: 1e-8 to 0.001"),
+            ("repeats = ", "shaking = 0.2\nrepeats = ", "shaking: 0.2, allowed: 0, or 0.002 to 0.1"),
+            ("[0.0, 0.3]", "[0.4]", "packing_frictions: 0.4, allowed: 0 to the friction of the plan, 0.3"),
+            ("[1e-6, 1e-4]", "[1e-9]", "pressures: 1e-9, allowed: 1e-8 to 1e-3"),
             ("[1e-6, 1e-4]", "[]", "at least one of each is needed"),
             ("[\"thermal\"]", "[\"packed\"]", "paths: packed: allowed: isotropic, thermal"),
             ("[\"thermal\"]", "[\"thermal\", \"thermal\"]", "paths: thermal: is named twice"),
@@ -217,7 +236,7 @@ mod tests {
             ("[\"thermal\"]", "[\"thermal\"]\nstrain = 1.0", "strain: 1e0, allowed: 1e-4 to 5e-2"),
             ("[\"thermal\"]", "[\"thermal\"]\ncycles = 0", "cycles: 0, allowed: 1 to 1000"),
             ("[\"thermal\"]", "[\"circle\"]", "unknown variant `circle`"),
-            ("seed = 5", "seed = 5\nfriction = 3.0", "friction = 3, allowed: 0 to 2"),
+            ("seed = 5", "seed = 5\nfriction = 3.0", "friction: 3, allowed: 0 to 2"),
             ("seed = 5", "seed = 5\npoisson_ratio = 0.6", "poisson_ratio: 0.6, allowed: 0 to 0.5"),
             ("seed = 5", "seed = 5\nrestitution = 0.0", "restitution: 0, allowed: 0.001 to 1"),
             ("seed = 5", "seed = 5\nradius_min = 1.0", "unknown field `radius_min`"),

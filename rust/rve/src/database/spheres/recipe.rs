@@ -10,6 +10,7 @@ use crate::database::recipe::Recipe;
 use crate::database::seed::{check_count, packing_seed};
 use crate::database::{Dataset, Violation};
 use crate::spheres::Preparation;
+use crate::spheres::prepare::MAX_FRICTION;
 
 impl SpherePlan {
     fn job(
@@ -46,6 +47,9 @@ impl Recipe for SpherePlan {
     const ENGINE_VERSION: i64 = 1;
 
     fn check(&self) -> Result<(), String> {
+        if !(0.0..=MAX_FRICTION).contains(&self.friction) {
+            return Err(format!("friction: {}, allowed: 0 to {MAX_FRICTION}", self.friction));
+        }
         for (key, value, [least, most]) in [
             ("poisson_ratio", self.poisson_ratio, POISSON_RATIOS),
             ("restitution", self.restitution, RESTITUTIONS),
@@ -58,10 +62,9 @@ impl Recipe for SpherePlan {
             return Err("at least one block of packings is needed".to_string());
         }
         for (block, number) in self.spheres.iter().zip(1..) {
-            block.check().map_err(|problem| format!("[[spheres]] {number}: {problem}"))?;
+            block.check(self.friction).map_err(|problem| format!("[[spheres]] {number}: {problem}"))?;
         }
-        check_count(self.spheres.iter().map(|block| block.count(self.friction)))?;
-        self.jobs().iter().try_for_each(|job| job.preparation.check().map_err(|error| error.to_string()))
+        check_count(self.spheres.iter().map(|block| block.count(self.friction)))
     }
 
     fn with_text(mut self, text: String) -> Self {
