@@ -1,0 +1,3 @@
+# Orders of both schemes in time.
+
+check "orders in time" "$here/order" $([ $full = no ] || echo --full)
