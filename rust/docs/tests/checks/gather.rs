@@ -82,8 +82,8 @@ fn sections_are_numbers_and_tables_of_files_the_others_stay_and_missing_entries_
         assert_eq!(results.value(key).unwrap().value, value, "{key}");
     }
     for (table, row, cells) in [
-        ("first", 0, "|4.5 % in 12 s|4.5 % in 12 s|4.5 % in 12 s"),
-        ("first", 2, "|± 0.3 %|± 0.3 %|± 0.3 %"),
+        ("errors", 0, "|4.5 % in 12 s|4.5 % in 12 s|4.5 % in 12 s"),
+        ("errors", 2, "|± 0.3 %|± 0.3 %|± 0.3 %"),
         ("errors", 3, "|5.3 % in 40 s|2.8 % in 40 s|6.5 % in 40 s|–|–|–"),
         ("witness", 1, "each its own rate|-1 %|2.86|"),
         ("beds-errors", 0, "`a-bed`|steel, air|validation|0.37|0.16|4.90|4.12|1.83|1.37"),
