@@ -107,7 +107,7 @@ fn errors(section: &mut Section, root: &Path, of: &Errors) -> Result<(), DocsErr
     let mut rows = Vec::new();
     for line in 0..errors.rows.len() {
         let bed = format!("`{}`", errors.text(line, "scene")?);
-        let mut row = about.rows[about.find(&[("bed", &bed)])?].clone();
+        let mut row = about.rows[about.find(&[("bed", bed.as_str())])?].clone();
         if of.with_use {
             let purpose = errors.text(line, "use")?;
             let words = USES.iter().find(|(name, _)| *name == purpose);
