@@ -53,7 +53,7 @@ struct usualOfWall
 static const usualOfWall usualOfWalls[] =
 {
     {"friction", 2, "grains on metals have 0.2 to 0.6, on sandpaper 1"},
-    {"slackLayer", 10, "beds between smooth plates had 0.7 to 2.2 mean diameters"},
+    {"slackLayer", 10, "beds between smooth plates had 0.7 to 3.5 mean diameters"},
     {"slackRecovery", 0.5, "it was -0.5 to 0.5 in beds between smooth plates"}
 };
 

@@ -115,7 +115,7 @@ fn beds(results: &Results) -> Drawn {
     let quantity = |error: usize| -> Points {
         rows.iter().map(|row| (number(&row[error + 1]), number(&row[error]))).collect()
     };
-    let [t, p, k] = [3, 5, 7].map(quantity);
+    let [t, p, k] = [4, 6, 8].map(quantity);
     let within = p.iter().filter(|point| point.1 < 10.0).count();
     let title = format!(
         "T within {} %; p within 10 % in {within} of {} beds",
@@ -152,7 +152,7 @@ fn validity() -> Drawn {
         let modulus = key("young_modulus") / (2.0 * (1.0 - key("poisson_ratio").powi(2)));
         for file in std::fs::read_dir(folder)?.flatten().map(|entry| entry.path()) {
             let name = file.file_name().unwrap_or_default().to_string_lossy().into_owned();
-            if !(name.starts_with("elements-") && name.ends_with(".csv")) {
+            if !(name.starts_with("dem-") && name.ends_with(".csv")) {
                 continue;
             }
             let columns = csv(&file)?;

@@ -13,86 +13,114 @@ const ORIGIN: &str = "cases/beds/make";
 const QUANTITIES: [(&str, &str); 3] = [("T", "T"), ("pressure", "p"), ("conductivity", "K")];
 /// What scenes are for, in `plan.toml`, and as the book says it.
 const USES: [(&str, &str); 3] =
-    [("calibrate", "for calibration"), ("judge", "for validation"), ("outside", "of another friction")];
+    [("calibrate", "calibration"), ("judge", "validation"), ("outside", "other friction")];
+
+/// A table of the errors of the beds in a folder.
+struct Errors {
+    name: &'static str,
+    meaning: &'static str,
+    folder: &'static str,
+    source: &'static str,
+    /// Whether the beds differ in what they are for.
+    with_use: bool,
+    /// Quantities in `errors.csv`, as the book names them, and the unit.
+    quantities: &'static [[&'static str; 3]],
+}
+
+const T: [&str; 3] = ["T", "T", "% of the range"];
+const P: [&str; 3] = ["pressure", "p", "%"];
+const K: [&str; 3] = ["conductivity", "K", "%"];
+const OTHERS: &str = "cases/common/compare-beds";
 
 /// # Errors
 /// Files that are missing or lack a column.
 pub fn section(root: &Path) -> Result<Section, DocsError> {
     let mut section = Section::default();
-    errors(&mut section, root, ("beds-errors", "the solver compared with beds of spheres, rms", FOLDER))?;
+    let beds = Errors {
+        name: "beds-errors",
+        meaning: "the solver compared with beds of spheres, rms",
+        folder: FOLDER,
+        source: ORIGIN,
+        with_use: true,
+        quantities: &[T, P, K],
+    };
+    errors(&mut section, root, &beds)?;
 
     let bands = Table::read(root, FOLDER, "bands.csv")?;
     let mut rows = Vec::new();
-    for (name, words) in QUANTITIES {
-        let mut row = vec![words.to_string()];
-        for (purpose, _) in USES {
+    for (purpose, words) in USES {
+        for (name, symbol) in QUANTITIES {
             let line = bands.find(&[("quantity", name), ("use", purpose)])?;
-            row.push(decimals(100.0 * bands.number(line, "inside")?, 0));
-            row.push(decimals(100.0 * bands.number(line, "inside_worst_scene")?, 0));
-            row.push(decimals(bands.number(line, "width")?, 1));
+            rows.push(vec![
+                words.to_string(),
+                symbol.to_string(),
+                decimals(100.0 * bands.number(line, "inside")?, 0),
+                decimals(100.0 * bands.number(line, "inside_worst_scene")?, 0),
+                decimals(bands.number(line, "width")?, 1),
+            ]);
         }
-        rows.push(row);
     }
-    let columns: Vec<String> = USES
-        .iter()
-        .flat_map(|(_, words)| {
-            [format!("inside, beds {words} [%]"), "worst bed [%]".to_string(), "width".to_string()]
-        })
-        .collect();
-    let columns: Vec<&str> = std::iter::once("").chain(columns.iter().map(String::as_str)).collect();
+    let columns = ["beds", "quantity", "inside [%]", "inside, worst bed [%]", "width"];
     section.add_table("beds-bands", "error bands of beds of spheres", ORIGIN, &columns, rows);
     beside::tables(root, &mut section)?;
     plates(&mut section, &Json::read(root, &format!("{INPUTS}/give.json"))?)?;
     Ok(section)
 }
 
-/// Hot beds that radiate, and beds of unequal spheres.
+/// Hot beds that radiate, whose spheres do not expand, and beds of unequal spheres.
 ///
 /// # Errors
 /// As [`section`].
 pub fn more(root: &Path) -> Result<Section, DocsError> {
     let mut section = Section::default();
-    errors(
-        &mut section,
-        root,
-        ("hot-errors", "the solver compared with hot beds of spheres, rms", "cases/hot"),
-    )?;
-    let unequal =
-        ("unequal-errors", "the solver compared with beds of unequal spheres, rms", "cases/unequal");
-    errors(&mut section, root, unequal)?;
+    let hot = Errors {
+        name: "hot-errors",
+        meaning: "the solver compared with hot beds of spheres, rms",
+        folder: "cases/hot",
+        source: OTHERS,
+        with_use: false,
+        quantities: &[T, K],
+    };
+    let unequal = Errors {
+        name: "unequal-errors",
+        meaning: "the solver compared with beds of unequal spheres, rms",
+        folder: "cases/unequal",
+        quantities: &[T, P, K],
+        ..hot
+    };
+    errors(&mut section, root, &hot)?;
+    errors(&mut section, root, &unequal)?;
     Ok(section)
 }
 
-/// The table of the beds in a folder.
-fn errors(
-    section: &mut Section,
-    root: &Path,
-    (name, meaning, folder): (&str, &str, &str),
-) -> Result<(), DocsError> {
-    let errors = Table::read(root, folder, "errors.csv")?;
+/// The table of the beds in a folder: what its README says of each bed, and errors and scatter.
+fn errors(section: &mut Section, root: &Path, of: &Errors) -> Result<(), DocsError> {
+    let errors = Table::read(root, of.folder, "errors.csv")?;
+    let about = Table::described(root, of.folder)?;
+    let mut columns = about.columns.clone();
+    if of.with_use {
+        columns.push("use".to_string());
+    }
+    for [_, symbol, unit] in of.quantities {
+        columns.extend([format!("{symbol} [{unit}]"), format!("scatter of {symbol}")]);
+    }
     let mut rows = Vec::new();
     for line in 0..errors.rows.len() {
-        let [scene, purpose, packings] =
-            ["scene", "use", "packings"].map(|name| errors.text(line, name).map(str::to_string));
-        let mut row = vec![format!("`{}`", scene?), purpose?, packings?];
-        for quantity in ["T", "pressure", "conductivity"] {
+        let bed = format!("`{}`", errors.text(line, "scene")?);
+        let mut row = about.rows[about.find(&[("bed", bed.as_str())])?].clone();
+        if of.with_use {
+            let purpose = errors.text(line, "use")?;
+            let words = USES.iter().find(|(name, _)| *name == purpose);
+            row.push(words.ok_or_else(|| errors.missing(purpose))?.1.to_string());
+        }
+        for [quantity, ..] in of.quantities {
             row.push(decimals(errors.number(line, &format!("{quantity}_error"))?, 2));
             row.push(decimals(errors.number(line, &format!("{quantity}_scatter"))?, 2));
         }
         rows.push(row);
     }
-    let columns = [
-        "bed",
-        "use",
-        "packings",
-        "T [% of the range]",
-        "one packing",
-        "p [%]",
-        "one packing",
-        "K [%]",
-        "one packing",
-    ];
-    section.add_table(name, meaning, ORIGIN, &columns, rows);
+    let columns: Vec<&str> = columns.iter().map(String::as_str).collect();
+    section.add_table(of.name, of.meaning, of.source, &columns, rows);
     Ok(())
 }
 
@@ -124,7 +152,7 @@ fn plates(section: &mut Section, beds: &Json) -> Result<(), DocsError> {
     Ok(())
 }
 
-/// A file of comma-separated values.
+/// A file of comma-separated values, or a table of a README.
 struct Table {
     file: String,
     columns: Vec<String>,
@@ -138,6 +166,19 @@ impl Table {
         let mut lines = text.lines().map(|line| line.split(',').map(str::to_string).collect::<Vec<_>>());
         let columns = lines.next().unwrap_or_default();
         Ok(Self { file, columns, rows: lines.collect() })
+    }
+
+    /// The table in the README of a folder whose first column is `bed`.
+    fn described(root: &Path, folder: &str) -> Result<Self, DocsError> {
+        let file = format!("{folder}/README.md");
+        let text = msdd_files::read_text(&root.join(&file))?;
+        let cells = |line: &str| -> Vec<String> {
+            line.trim_matches('|').split('|').map(|cell| cell.trim().to_string()).collect()
+        };
+        let mut lines = text.lines().skip_while(|line| !line.starts_with("| bed |"));
+        let columns = lines.next().map(cells).unwrap_or_default();
+        let rows = lines.skip(1).take_while(|line| line.starts_with('|')).map(cells).collect();
+        Ok(Self { file, columns, rows })
     }
 
     fn missing(&self, what: &str) -> DocsError {

@@ -61,7 +61,7 @@ pub fn section(root: &Path) -> Result<Section, DocsError> {
         runs.push(CASES.iter().map(|(case, _)| read_run(&summary, way, case)).collect::<Result<_, _>>()?);
     }
     let mut section = Section::default();
-    first(&mut section, &runs, &discs);
+    errors(&mut section, &runs, &discs);
     temperatures(&mut section, &runs, &discs);
     ends(&mut section, &runs, &discs)?;
     Ok(section)
@@ -109,8 +109,8 @@ fn read_run(
     })
 }
 
-/// The table that the README shows: error of T and processor time.
-fn first(section: &mut Section, runs: &[Vec<Run>], discs: &[Discs]) {
+/// Error of T and processor time.
+fn errors(section: &mut Section, runs: &[Vec<Run>], discs: &[Discs]) {
     let mut rows = Vec::new();
     for ((way, words, _, _), runs) in WAYS.iter().zip(runs) {
         let mut row = vec![(*words).to_string()];
@@ -143,9 +143,6 @@ fn first(section: &mut Section, runs: &[Vec<Run>], discs: &[Discs]) {
     let columns: Vec<&str> = [""].into_iter().chain(CASES.map(|case| case.1)).collect();
     let meaning = "largest error of T at three points over 20 s, of the range of T, and processor time of a run; 100 x 30 cells";
     let source = format!("{FILE}; Rangel et al., sections 3.3 and 3.4");
-    // The cases with expansion come first, and are enough at first sight.
-    let short = rows.iter().map(|row| row[..4].to_vec()).collect();
-    section.add_table("first", meaning, &source, &columns[..4], short);
     section.add_table("errors", meaning, &source, &columns, rows);
 }
 

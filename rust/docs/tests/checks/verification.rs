@@ -6,14 +6,19 @@ use regex_lite::Regex;
 use std::fs;
 use std::path::Path;
 
-/// Folder of files that have none in the tables.
+/// Folders of files in the tables that do not begin with one of the checkout: of tests in Rust, and of others.
+const RUST: &str = "rust/surrogate/src/increment/";
 const CHECKS: &str = "tests/openfoam/checks/";
 
 /// What is wrong with a line of the tables: `| problem | closed form | allowed | file, test |`.
 fn problem(line: &str) -> Option<String> {
     let form = Regex::new(r"^\|[^|]+\|[^|]+\|([^|]+)\| `([^`]+)`, `([^`]+)` \|$").unwrap();
     let Some(cells) = form.captures(line) else { return Some(format!("not four cells: {line}")) };
-    let folder = if cells[2].contains('/') { "" } else { CHECKS };
+    let folder = match &cells[2] {
+        whole if whole.starts_with("rust/") || whole.starts_with("tests/") => "",
+        rust if rust.ends_with(".rs") => RUST,
+        _ => CHECKS,
+    };
     let file = format!("{folder}{}", &cells[2]);
     let text = fs::read_to_string(root().join(&file)).unwrap_or_default();
     let numbers = cells[1].split('`').skip(1).step_by(2).filter(|code| code.parse::<f64>().is_ok());
