@@ -162,7 +162,9 @@ bool Foam::functionObjects::contactForceFields::write()
         return true;
     }
     writeField("contactForce", dimForce, force);
-    writeField("largeContactForce", dimForce, contactForces::large*force);
+    // A copy, since the operator takes a reference
+    const scalar large = contactForces::large;
+    writeField("largeContactForce", dimForce, large*force);
     writeField("contactPressure", dimPressure, pressure);
     return true;
 }

@@ -97,7 +97,9 @@ Foam::neighbourSolids::neighbourSolids(const Time& runTime)
     {
         const_cast<Time&>(runTime).libs().open(library);
     }
-    for (const word& name : regions.lookup("solid", wordList()))
+    // lookup returns a reference, to the default where the word is missing
+    const wordList none;
+    for (const word& name : regions.lookup("solid", none))
     {
         read(runTime, name);
     }

@@ -2,6 +2,8 @@
 
 number() { sed -n "s/.*\"$1\": \([0-9.e+-]*\).*/\1/p" postProcessing/msddFoam/summary.json | head -n 1; }
 
+small_as_it_is
+
 changed constant # takes the conductivity of the builtin model at the mean initial state
 grains 'surrogate { type constant; }'
 mesh_is '12 6 1'

@@ -112,7 +112,7 @@ quarter() { # a quarter of case H with symmetry planes must give the result of t
 }
 
 maximum_principle
-[ -e "$work/serial/1/T" ] || { fresh small serial; logged msddFoam; }
+small_as_it_is
 rotated
 rm -rf "$work/quarter"
 quarter
