@@ -14,6 +14,7 @@ use msdd_beds::case::{BedCase, file_in};
 use msdd_beds::packings::column;
 use msdd_case::folder;
 use msdd_case::numbers::plain;
+use msdd_case::spheres::start::{FABRIC, LATERAL};
 use msdd_cli::shared::{CliError, Geometry, checkout, files, probes};
 use msdd_files::{Column, read_text, write};
 use msdd_training::dem_start::{FirstRow, packings};
@@ -41,6 +42,8 @@ const COLUMNS: [Column; 9] = [
 /// Points along the axis, and along the radius of a cylinder, over which the solver's fields are averaged.
 const ALONG: usize = 8;
 const ACROSS: usize = 4;
+/// What `msdd case new` proposes for a bed of steel under 20 kPa: porosity, contacts per sphere, and mobilised friction.
+const PROPOSED: [f64; 3] = [0.4, 4.68, 0.85];
 /// Share of the volume of a bed that spheres fill.
 const FILLED: f64 = 0.6;
 
@@ -65,6 +68,9 @@ pub struct Arguments {
     /// Folder for the tables errors.csv and, with --bands, bands.csv; not with --only.
     #[arg(long, value_name = "DIR", conflicts_with = "only")]
     tables: Option<PathBuf>,
+    /// Start from the state that 'msdd case new' proposes for poured beds under the axial stress of DEM, not from DEM's state.
+    #[arg(long, conflicts_with = "bands")]
+    proposed_start: bool,
     /// MSDD's checkout, whose solver the cases run. Default: the one that this program was built in.
     #[arg(long, value_name = "DIR")]
     checkout: Option<PathBuf>,
@@ -92,7 +98,8 @@ pub fn run(arguments: &Arguments) -> Result<(), CliError> {
         let packings = packings(&folder)?;
         for (seed, file) in &packings {
             let place = arguments.out.join(&planned.name).join(format!("seed{seed}"));
-            let packing = Packing { scene: number, seed: *seed, bed: &bed, folder: &folder, file };
+            let proposed = arguments.proposed_start;
+            let packing = Packing { scene: number, seed: *seed, bed: &bed, folder: &folder, file, proposed };
             all.extend(packing.rows(&place, &checkout)?);
         }
         let [low, high] = bed.temperatures();
@@ -160,6 +167,17 @@ struct Packing<'a> {
     /// Folder of its `bed.toml`, and the results of its DEM.
     folder: &'a Path,
     file: &'a Path,
+    /// Whether the start is that of `msdd case new`.
+    proposed: bool,
+}
+
+/// The state of `msdd case new` under the axial stress of DEM.
+fn propose(start: &mut FirstRow) {
+    let [_, _, axial] = start.stress;
+    start.stress = [LATERAL * axial, LATERAL * axial, axial];
+    start.fabric = [FABRIC[0], FABRIC[0], FABRIC[1]];
+    [start.porosity, start.coordination, start.mobilised] = PROPOSED;
+    start.porosity_outside = start.porosity_outside.map(|_| start.porosity);
 }
 
 /// What is compared: a column of the elements with the mean of the solver's values at some of the scene's points.
@@ -173,7 +191,10 @@ impl Packing<'_> {
     /// Rows for the fit, by quantity. Makes and runs the solver's case in the folder `place`.
     fn rows(&self, place: &Path, checkout: &Path) -> Result<Vec<(Quantity, Vec<Row>)>, CliError> {
         let failed = |error: ChoiceError| CliError::Message(error.to_string());
-        let start = FirstRow::read(self.file)?;
+        let mut start = FirstRow::read(self.file)?;
+        if self.proposed {
+            propose(&mut start);
+        }
         let geometry = Geometry::new(&file_in(self.folder), self.bed, start.depth)?;
         folder::write(place, &files(self.folder, self.bed, &start, "bed", checkout)?)?;
         solve(place, checkout).map_err(CliError::Message)?;

@@ -46,6 +46,19 @@ pub fn section(root: &Path) -> Result<Section, DocsError> {
     };
     errors(&mut section, root, &beds)?;
 
+    let errors = Table::read(root, FOLDER, "errors-proposed.csv")?;
+    let rows = (0..errors.rows.len()).map(|line| {
+        let mut row = vec![format!("`{}`", errors.text(line, "scene")?)];
+        for [quantity, ..] in [T, P, K] {
+            row.push(decimals(errors.number(line, &format!("{quantity}_error"))?, 1));
+        }
+        Ok(row)
+    });
+    let rows = rows.collect::<Result<_, DocsError>>()?;
+    let meaning = "the same from the start that msdd case new proposes";
+    let columns = ["bed", "T [% of the range]", "p [%]", "K [%]"];
+    section.add_table("beds-proposed", meaning, ORIGIN, &columns, rows);
+
     let bands = Table::read(root, FOLDER, "bands.csv")?;
     let mut rows = Vec::new();
     for (purpose, words) in USES {

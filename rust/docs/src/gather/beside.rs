@@ -1,4 +1,4 @@
-//! Solver and DEM of 20 000 spheres: what `compare-dem` printed for the cases `column` and `store`.
+//! Solver and DEM of 20 000 spheres: what `compare-dem` printed for the cases `column` and `store`, and `vary-inputs` for other inputs.
 
 use crate::error::DocsError;
 use crate::gather::json::INPUTS;
@@ -36,6 +36,10 @@ const CASES: [(&str, [Row; 7]); 2] = [
 ];
 /// Characters of the names in print.
 const NAME: usize = 22;
+/// Before the name of a variant in print.
+const VARIANT: &str = "with ";
+/// Rows of [`CASES`] whose rms are columns of the table of variants: T, p, K and the stress on the wall, the last with its worst.
+const VARIED: [usize; 4] = [0, 4, 5, 6];
 
 /// # Errors
 /// A file that is missing or lacks a row.
@@ -43,18 +47,10 @@ pub fn tables(root: &Path, section: &mut Section) -> Result<(), DocsError> {
     for (case, rows) in CASES {
         let file = format!("{INPUTS}/{case}.txt");
         let text = msdd_files::read_text(&root.join(&file))?;
-        let missing =
-            |what: &str| DocsError::Json { file: file.clone().into(), text: format!("'{what}' is missing") };
         let mut table = Vec::new();
         for (name, words, wanted) in rows {
-            let line = text.lines().find(|line| line.get(..NAME).is_some_and(|head| head.trim() == name));
-            let numbers: Vec<f64> = line
-                .and_then(|line| line.get(NAME..))
-                .map(|rest| rest.split_whitespace().map_while(|word| word.parse().ok()).collect())
-                .unwrap_or_default();
-            let [_, rms, worst, packing] = numbers[..] else { return Err(missing(name)) };
             let mut row = vec![words.to_string()];
-            row.extend([rms, worst, packing].map(|value| decimals(value, 1)));
+            row.extend(differences(&text, name, &file)?.map(|value| decimals(value, 1)));
             row.push(wanted.to_string());
             table.push(row);
         }
@@ -67,6 +63,56 @@ pub fn tables(root: &Path, section: &mut Section) -> Result<(), DocsError> {
             &columns,
             table,
         );
+        variants(root, section, case, &rows, &text)?;
     }
     Ok(())
+}
+
+/// The errors with other inputs, below those of the case itself.
+fn variants(
+    root: &Path,
+    section: &mut Section,
+    case: &str,
+    rows: &[Row; 7],
+    itself: &str,
+) -> Result<(), DocsError> {
+    let file = format!("{INPUTS}/{case}-inputs.txt");
+    let text = msdd_files::read_text(&root.join(&file))?;
+    let mut printed = vec![("as in the case", itself)];
+    printed.extend(
+        text.split(&format!("\n{VARIANT}"))
+            .filter_map(|part| part.strip_prefix(VARIANT).unwrap_or(part).split_once('\n')),
+    );
+    let mut table = Vec::new();
+    for (what, text) in printed {
+        let mut row = vec![what.to_string()];
+        for place in VARIED {
+            let [rms, worst, _] = differences(text, rows[place].0, &file)?;
+            row.push(decimals(rms, 1));
+            if place == 6 {
+                row.push(decimals(worst, 1));
+            }
+        }
+        table.push(row);
+    }
+    let mut columns = vec!["input"];
+    columns.extend(VARIED.map(|place| rows[place].1));
+    columns.push("worst");
+    let meaning = format!("case {case}: rms of solver minus DEM with other inputs");
+    let source = format!("cases/common/vary-inputs in cases/{case}");
+    section.add_table(&format!("inputs-{case}"), &meaning, &source, &columns, table);
+    Ok(())
+}
+
+/// Rms, worst and scatter of a quantity, as `compare-dem` printed them.
+fn differences(text: &str, name: &str, file: &str) -> Result<[f64; 3], DocsError> {
+    let line = text.lines().find(|line| line.get(..NAME).is_some_and(|head| head.trim() == name));
+    let numbers: Vec<f64> = line
+        .and_then(|line| line.get(NAME..))
+        .map(|rest| rest.split_whitespace().map_while(|word| word.parse().ok()).collect())
+        .unwrap_or_default();
+    let [_, rms, worst, packing] = numbers[..] else {
+        return Err(DocsError::Json { file: file.into(), text: format!("'{name}' is missing") });
+    };
+    Ok([rms, worst, packing])
 }

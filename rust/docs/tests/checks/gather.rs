@@ -48,6 +48,8 @@ fn sections_are_numbers_and_tables_of_files_the_others_stay_and_missing_entries_
     let names = ["T at the probes", "stress 1", "stress 2", "stress 3", "p", "K", "stress on the wall"];
     let mut beside = "solver minus DEM         points      rms    worst  packings\n".to_string();
     beside.extend(names.map(|name| format!("{name:<22}       20     0.85    -1.36      0.21 %\n")));
+    let other = beside.replace("0.85", "2.25");
+    let varied = format!("with `a`: 1\ncase a.variants: done\n{other}with `b`\n{beside}");
     let discs = "cases/reference/summary.json";
     let files = [
         (discs, &fs::read_to_string(project().join(discs)).unwrap()),
@@ -61,6 +63,9 @@ fn sections_are_numbers_and_tables_of_files_the_others_stay_and_missing_entries_
         ("results/numbers/store.txt", &beside),
         ("results/numbers/give.json", &GIVE.to_string()),
         ("cases/beds/README.md", &ABOUT.to_string()),
+        ("cases/beds/errors-proposed.csv", &ERRORS.to_string()),
+        ("results/numbers/column-inputs.txt", &varied),
+        ("results/numbers/store-inputs.txt", &varied),
     ];
     let root = checkout("gather", &files.map(|(file, text)| (file, text.as_str())));
     let renewed = |section: &str| {
@@ -87,8 +92,12 @@ fn sections_are_numbers_and_tables_of_files_the_others_stay_and_missing_entries_
         ("errors", 3, "|5.3 % in 40 s|2.8 % in 40 s|6.5 % in 40 s|–|–|–"),
         ("witness", 1, "each its own rate|-1 %|2.86|"),
         ("beds-errors", 0, "`a-bed`|steel, air|validation|0.37|0.16|4.90|4.12|1.83|1.37"),
+        ("beds-proposed", 0, "`a-bed`|0.4|4.9|1.8"),
         ("beds-bands", 1, "calibration|p|91|85|1.4"),
         ("beside-store", 6, "stress on the side [%]|0.8|-1.4|0.2|5"),
+        ("inputs-store", 0, "as in the case|0.8|0.8|0.8|0.8|-1.4"),
+        ("inputs-store", 1, "`a`: 1|2.2|2.2|2.2|2.2|-1.4"),
+        ("inputs-store", 2, "`b`|0.8|"),
         ("plates-give", 0, "`path`|2|1.50 ± 0.25|0.10 ± 0.02"),
         ("plates-give", 1, "`press`|1|1.00|–"),
         ("plates-give", 2, "mean||1.25|0.10"),
@@ -104,6 +113,8 @@ fn sections_are_numbers_and_tables_of_files_the_others_stay_and_missing_entries_
         ("beds", 8, "stress on the wall", "'stress on the wall' is missing"),
         ("beds", 6, "inside_worst_scene", "'inside_worst_scene' is missing"),
         ("beds", 10, "`a-bed`", "'`a-bed`' is missing"),
+        ("beds", 11, "pressure_error", "'pressure_error' is missing"),
+        ("beds", 12, "K   ", "'K' is missing"),
         ("report", 4, "none", "allowed: the whole report"),
     ] {
         let (path, text) = files[file];
