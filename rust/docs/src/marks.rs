@@ -1,6 +1,6 @@
 //! The marks in Markdown between which numbers and tables of the results stand: `<!--= key-->0.74<!--/-->` in a line,
-//! `<!--= range:name@column-->0.2 to 1.5<!--/-->` for the least and largest number of a table's column (`@row` at its end: in
-//! rows whose first cell has this text), and `<!--= table:name-->` … `<!--/-->` on lines of their own. Marks in code are text.
+//! `<!--= range:name@column-->0.2 to 1.5<!--/-->` for the least and largest number of a table's column (`column ()`: of the
+//! numbers in brackets; `@row` at its end: in rows whose first cell has this text), and `<!--= table:name-->` … `<!--/-->` on lines of their own. Marks in code are text.
 
 use crate::error::Finding;
 use crate::pages::Page;

@@ -141,13 +141,15 @@ impl Results {
 
 impl Table {
     /// Least and largest number at the starts of a column's cells, as printed; of the rows whose first cell has `row` in it.
-    /// One number where they are equal.
+    /// One number where they are equal. Of a column name followed by " ()" the numbers in the brackets of the cells.
     pub fn range(&self, column: &str, row: &str) -> Option<String> {
+        let (column, inside) = column.strip_suffix(" ()").map_or((column, false), |column| (column, true));
         let column = self.columns.iter().position(|name| name == column)?;
         let cells =
             self.rows.iter().filter(|cells| cells[0].contains(row)).map(|cells| cells[column].as_str());
         let numbers = cells.filter_map(|cell| {
-            let printed = cell.split(' ').next()?;
+            let start = if inside { cell.split_once('(')?.1 } else { cell };
+            let printed = start.split([' ', ')']).next()?;
             Some((printed.replace('\u{a0}', "").parse::<f64>().ok()?, printed))
         });
         let numbers: Vec<(f64, &str)> = numbers.collect();

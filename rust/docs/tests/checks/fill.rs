@@ -10,7 +10,7 @@ const RESULTS: &str = r#"{"schema": "msdd-results-1", "sections": {"cases": {
     "command": "scripts/results cases", "commit": "0123abc", "date": "2026-01-02", "values": {
         "H.T": {"value": "0.74", "unit": "%", "meaning": "error of T", "source": "results/summary.json"},
         "rows": {"value": "19 706", "unit": "1", "meaning": "rows", "source": "a.json"}},
-    "tables": {"first": {"meaning": "all", "source": "a.json", "columns": ["case", "T"], "rows": [["H", "1.0"], ["C", "2.5"]]}}
+    "tables": {"first": {"meaning": "all", "source": "a.json", "columns": ["case", "T"], "rows": [["H", "1.0"], ["C", "2.5 (0.4)"]]}}
 }}}"#;
 
 /// Fills `text` in as README.md next to [`RESULTS`]; the text afterwards and what was found.
@@ -33,11 +33,11 @@ fn numbers_and_tables_are_renewed_and_a_check_names_file_line_key_text_and_value
     assert_eq!(
         text,
         "One.\n\nOff by <!--= cases.H.T-->0.74<!--/--> %, of <!--=cases.rows-->19 706<!--/--> rows.\n\n<!--= table:first-->\n\n\
-         | case | T |\n|---|---|\n| H | 1.0 |\n| C | 2.5 |\n\n<!--/-->\n"
+         | case | T |\n|---|---|\n| H | 1.0 |\n| C | 2.5 (0.4) |\n\n<!--/-->\n"
     );
     assert_eq!((wrong, filled("agree", &text, true)), (Vec::new(), (text.clone(), Vec::new())));
-    let ranges = "T <!--= range:first@T-->1<!--/-->, of C <!--= range:first@T@C--><!--/-->\n";
-    let filled_in = "T <!--= range:first@T-->1.0 to 2.5<!--/-->, of C <!--= range:first@T@C-->2.5<!--/-->\n";
+    let ranges = "T <!--= range:first@T-->1<!--/-->, of C <!--= range:first@T@C--><!--/--> (<!--= range:first@T ()--><!--/-->)\n";
+    let filled_in = "T <!--= range:first@T-->1.0 to 2.5<!--/-->, of C <!--= range:first@T@C-->2.5<!--/--> (<!--= range:first@T ()-->0.4<!--/-->)\n";
     assert_eq!(filled("ranges", ranges, false), (filled_in.to_string(), Vec::new()));
     let (_, wrong) = filled("cell", &text.replace("2.5", "2.4"), true);
     assert!(wrong.len() == 1 && wrong[0].contains("'table:first' is"), "{wrong:?}");
@@ -69,7 +69,7 @@ fn marks_that_lead_nowhere_are_errors_and_nothing_is_written() {
 fn results_of_another_form_are_refused() {
     for (name, from, to, message) in [
         ("schema", "msdd-results-1", "msdd-results-2", "allowed: msdd-results-1"),
-        ("cells", r#"["C", "2.5"]"#, r#"["C"]"#, "has 1 cells, allowed: 2"),
+        ("cells", r#"["C", "2.5 (0.4)"]"#, r#"["C"]"#, "has 1 cells, allowed: 2"),
         ("bar", "19 706", "19|706", "cases.rows is '19|706'"),
         ("field", r#""unit": "1""#, r#""units": "1""#, "unknown field `units`"),
     ] {
