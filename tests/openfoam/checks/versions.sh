@@ -25,24 +25,22 @@ header_of_versions() {
         "./granularModels/granularModel/foamVersions.H ./granularThermo/refusals/refusals.C ./msddFoam/sha1Stream.C "
 }
 
-# Newer versions need C++17. A function of ours that hides one of OpenFOAM is often one that a newer version has changed;
-# the build does not see it, since OpenFOAM's headers are system headers there. With --full each file is parsed alone, so that
-# none relies on another of its unit.
-newer_standard() {
-    local part said files=(grep '\.C$' Make/files)
-    [ $full = no ] || files=(find . -name '*.C' -not -name '*Unit.C' -not -path './lnInclude/*')
+# Each file is parsed alone, so that none relies on another of its unit. A function of ours that hides one of OpenFOAM is often
+# one that a newer version has changed; the build does not see it, since OpenFOAM's headers are system headers there.
+files_alone() {
+    local part said
     for part in granularModels functionObjects granularThermo msddFoam; do
         said=$(
             . "$checkout/scripts/foam-env" build
             cd "$checkout/openfoam/$part"
-            "${files[@]}" | xargs -P "$(nproc)" -n 1 g++ -fsyntax-only -std=c++17 -Wall -Wextra -Wno-unused-parameter \
-                -Woverloaded-virtual -DOPENFOAM="$msdd_api" -DWM_DP -DWM_LABEL_SIZE="$WM_LABEL_SIZE" -DNoRepository \
+            find . -name '*.C' -not -name '*Unit.C' -not -path './lnInclude/*' | xargs -P "$(nproc)" -n 1 \
+                g++ -fsyntax-only -std=c++17 -Wall -Wextra -Wno-unused-parameter -Woverloaded-virtual -DOPENFOAM="$msdd_api" -DWM_DP -DWM_LABEL_SIZE="$WM_LABEL_SIZE" -DNoRepository \
                 $(pkg-config --cflags PETSc mpi-cxx | sed 's/-I/-isystem/g') -IlnInclude -I. \
                 $(sed '/LIBS/,$d' Make/options | grep -oE -- '-I[^ ]+' | sed "s@\$(LIB_SRC)@$WM_PROJECT_DIR/src@") \
                 -I"$WM_PROJECT_DIR/src/OpenFOAM/lnInclude" -I"$WM_PROJECT_DIR/src/OSspecific/POSIX/lnInclude" 2>&1
         ) || true
         said=$(grep -E ': (fatal )?error: |: warning: |: note: +by ' <<< "$said" | grep -v '^/' || true) # ours have relative paths
-        check "$part: no error, warning or hidden function with C++17${said:+: $(sed -n 1p <<< "$said")}" test -z "$said"
+        check "$part: no error, warning or hidden function in any file${said:+: $(sed -n 1p <<< "$said")}" test -z "$said"
     done
 }
 
@@ -79,4 +77,4 @@ sourced() {
 mkdir -p "$work"
 header_of_versions
 sourced
-newer_standard
+[ $full = no ] || files_alone
