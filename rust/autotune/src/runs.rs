@@ -113,8 +113,7 @@ impl<'a> Runs<'a> {
         let parts = [part(0), part(1)];
         let all = [0, 1].map(|quantity| parts[0][quantity].hypot(parts[1][quantity]));
         let worse = usize::from(all[1] > all[0]);
-        let model =
-            "what another conductivity would change, and the scenes that the model was judged by".to_string();
+        let model = "effect of the error of the conductivity, calibrated on beds computed by DEM".to_string();
         let packing = format!("scatter of beds of {:.0} grains", bed.grains);
         let shares = [("model", 0, model), ("packing", 1, packing)];
         let share = |(source, k, how): (&str, usize, String)| Share {
