@@ -34,7 +34,8 @@ files_alone() {
             . "$checkout/scripts/foam-env" build
             cd "$checkout/openfoam/$part"
             find . -name '*.C' -not -name '*Unit.C' -not -path './lnInclude/*' | xargs -P "$(nproc)" -n 1 \
-                g++ -fsyntax-only -std=c++17 -Wall -Wextra -Wno-unused-parameter -Woverloaded-virtual -DOPENFOAM="$msdd_api" -DWM_DP -DWM_LABEL_SIZE="$WM_LABEL_SIZE" -DNoRepository \
+                g++ -fsyntax-only -std=c++17 -Wall -Wextra -Wno-unused-parameter -Woverloaded-virtual \
+                -DOPENFOAM="$msdd_api" -DWM_DP -DWM_LABEL_SIZE="$WM_LABEL_SIZE" -DNoRepository \
                 $(pkg-config --cflags PETSc mpi-cxx | sed 's/-I/-isystem/g') -IlnInclude -I. \
                 $(sed '/LIBS/,$d' Make/options | grep -oE -- '-I[^ ]+' | sed "s@\$(LIB_SRC)@$WM_PROJECT_DIR/src@") \
                 -I"$WM_PROJECT_DIR/src/OpenFOAM/lnInclude" -I"$WM_PROJECT_DIR/src/OSspecific/POSIX/lnInclude" 2>&1
